@@ -6,7 +6,7 @@ output. Relations between the two memories are found from runs, and a solver dro
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,7 @@ from machines.candidate_invariants import Candidates, Sample
 from machines.composed_program import unit as wired_unit
 from machines.concrete_runs import Runner
 from machines.user_program import ProgramMachine, ProgramRunner
+from machines.verdicts import Verdict
 from programs.language.tree import BOOL, Assign, Binary, Name, Unit, Variable
 from programs.properties.property_file import Questions
 from programs.properties.transition_system import Cell
@@ -50,6 +51,10 @@ class Equality(ProgramMachine):
     def lacking(self) -> Mapping[str, str]:
         """Nothing: the questions are made from the wiring."""
         return {}
+
+    def left_out(self) -> Iterator[Verdict]:
+        """Nothing: every output is compared."""
+        return iter(())
 
     @cached_property
     def cell(self) -> Cell:

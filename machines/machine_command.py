@@ -44,7 +44,7 @@ FOLDER = Path("spec/machine_cell")
 DESIGN, CLAIM = "the project's own design after the five papers", "nothing here is a claim about a paper"
 OWN = f"{DESIGN}; {CLAIM}"
 TRUST = ("the reader of wirings", *TRUSTED)
-WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY")
+WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY", "NOT ASKED")
 NAME = "machine"
 
 

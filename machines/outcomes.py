@@ -27,7 +27,7 @@ from programs.language.tree import Place
 
 Values = Sequence[tuple[int, Mapping[str, Any], Mapping[str, Any]]]
 """Of each scan its time, the inputs, and the signals after it."""
-ORDER = ("REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY", "PROVED")
+ORDER = ("REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY", "NOT ASKED", "PROVED")
 _WIRE = re.compile(r"(.+):(\d+): ([\w.]+); ")
 _NAME = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 
@@ -64,7 +64,7 @@ def outcome_of(
             f"scans outside {low} to {high} ms",
             "what no property names",
             "what the compiler, the PLC and the devices make of the wiring",
-            *(f"{one.asked.id}: {one.how}" for one in found if one.word == "NOT JUDGED"),
+            *(f"{one.asked.id}: {one.how}" for one in found if one.word in ("NOT JUDGED", "NOT ASKED")),
         ],
         text=text,
         again=again,

@@ -169,6 +169,11 @@ class ProgramMachine(Machine):
         values = {name: getattr(base, name) for name in base.__dataclass_fields__} | {"named": named}
         return ProgramRunner(**values, program=self.cell, pins=pins)
 
+    @property
+    def unread(self) -> Iterator[str]:
+        """None: what a program reads is its own affair."""
+        return iter(())
+
     def sample(self, state: Any, memory: Mapping[str, tuple[bool, int]]) -> Sample:
         """As `Machine.sample`, of the interpreter."""
         found = self.runner.kept(state) if isinstance(state, Interpreter) else dict(state)

@@ -21,6 +21,7 @@ import z3
 from machines.candidate_invariants import Candidates, Sample, sample_of, state_of
 from machines.composed_program import Observer, Watched, cell_of, looked, spelled
 from machines.concrete_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
+from machines.coverage import TABLE, excused, unasked, unread
 from machines.missing_names import EXPRESSIONS, lacking, observers_lacking
 from machines.wiring import Wiring, wiring_of
 from modeproof.ground.errors import Unjudged
@@ -48,7 +49,8 @@ class Verdict:
     """What came out for one property.
 
     PROVED for every input, for ever; REFUTED by `scans`; UNKNOWN; NOT JUDGED, for the wiring lacks what it
-    names; EMPTY, for nothing can make it false. reached: scans after which each trigger was
+    names; EMPTY, for nothing can make it false; NOT ASKED, of an output or input that is in no question.
+    reached: scans after which each trigger was
     true in a run. mended: the rows of the project's own wiring with which the same scans break nothing.
     """
 
@@ -97,7 +99,7 @@ class Machine:
     @cached_property
     def every(self) -> Questions:
         """The file of properties. Raises Unjudged."""
-        return read_questions(self.properties, Beside(BESIDE, ("observer",), self.wiring.table.scan_ms))
+        return read_questions(self.properties, Beside(BESIDE, ("observer", TABLE), self.wiring.table.scan_ms))
 
     @cached_property
     def lacking(self) -> Mapping[str, str]:
@@ -314,7 +316,22 @@ class Machine:
             else:
                 found.append(Verdict(asked, row, "PROVED", proof, reached))
         order = [row["id"] for row in self.every.rows]
-        return sorted(found, key=lambda verdict: order.index(verdict.asked.id))
+        return [*sorted(found, key=lambda verdict: order.index(verdict.asked.id)), *self.left_out()]
+
+    def left_out(self) -> Iterator[Verdict]:
+        """An output that no property is about, an input that nothing reads, if the file does not say why."""
+        reasons = excused(self.every, self.wiring, strictly=not self.leave_out)
+        lost = {f"input {name}": "nothing reads it" for name in self.unread if name not in reasons}
+        outputs = unasked(self.wiring, self.watched, self.questions)
+        lost |= {f"output {name}": "no property is about it" for name in outputs if name not in reasons}
+        for id, how in lost.items():
+            row = {"hazard": "What it does, or should do, was not looked at.", "cites": []}
+            yield Verdict(Asked(id, f"{how[0].upper()}{how[1:]}.", id, None), row, "NOT ASKED", how)
+
+    @property
+    def unread(self) -> Iterator[str]:
+        """The inputs that nothing reads."""
+        return unread(self.wiring)
 
     def mended(self, scans: Sequence[Scan], row: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[str]:
         """The rows that are not as in `own`, and with whose text there the scans break nothing."""

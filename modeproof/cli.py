@@ -63,6 +63,10 @@ GROUPS = {
             "modeproof.explain.explain_command",
             "what an id or a word is, where it is, and what was shown",
         ),
+        "example": (
+            "modeproof.lane.example_command",
+            "copy a program, a log or a wiring to begin with to this folder",
+        ),
         "completion": ("modeproof.lane.completion", "let your shell complete commands and options"),
         "doctor": ("modeproof.lane.doctor", "tell what this machine lacks, and how to mend it"),
     },

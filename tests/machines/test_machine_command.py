@@ -79,7 +79,7 @@ def test_properties_without_their_signals_are_not_judged(tmp_path: Path) -> None
     path = tmp_path / "own.toml"
     path.write_text(PROPERTY, "utf-8")
     found = machine(tmp_path, TEXT, path)
-    (verdict,) = found.all(1)
+    verdict = found.all(1)[0]
     assert (verdict.word, verdict.how) == ("NOT JUDGED", "the wiring has no 'Barrier'")
     said = "\n".join(lines_of(found, [verdict], 0.0))
     assert "NOT JUDGED: barrier: The barrier is shut." in said

@@ -289,3 +289,51 @@ def test_a_property_that_nothing_breaks_is_named(
     said = capsys.readouterr().out
     assert "said: no edit of the wiring is known with which it falls" in said
     assert "0 of 1 properties fall with an edit" in said
+
+
+MOTOR = WIRING + 'S_Motor = { is = "Start OR running.Q1", to = "drive", why = "a second one" }\n'
+STOP = WIRING.replace("[modes]", 'S_EStop = { type = "BOOL", from = "desk", why = "pressed" }\n[modes]', 1)
+UNREAD = STOP.replace(
+    "[modes]", '[signals]\nidle = { is = "NOT S_EStop", why = "nobody has it" }\n[modes]', 1
+)
+
+
+def left_out(folder: Path, wiring: str, said: str = "") -> list[tuple[str, str]]:
+    path = folder / "own.toml"
+    path.write_text(f"[unasked]\n{said}\n{asked(CLOSED)}", "utf-8")
+    found = Machine(wiring, "my.toml", path, folder / "use.toml", runs=20).all(20)
+    assert status(found) == (2 if len(found) > 1 else 0)
+    return [(one.word, one.asked.id) for one in found[1:]]
+
+
+@pytest.mark.parametrize(
+    ("wiring", "name"),
+    [(MOTOR, "output S_Motor"), (STOP, "input S_EStop"), (UNREAD, "input S_EStop")],
+)
+def test_what_no_question_reaches_is_no_pass(folder: Path, wiring: str, name: str) -> None:
+    assert left_out(folder, wiring) == [("NOT ASKED", name)]
+    assert left_out(folder, wiring, f'{name.split()[1]} = "a lamp for the desk"') == []
+
+
+@pytest.mark.parametrize(
+    ("row", "lost"),
+    [
+        ('holds = "Running.q1"\nonly_if = "Door AND Key"', []),
+        ('never = "Key AND NOT Key OR moves.Q AND NOT Door"', []),
+        ('holds = "pressed.Q"\nonly_if = "Start"', ["output S_Drive"]),
+    ],
+)
+def test_an_output_is_asked_about_by_pin_or_observer(folder: Path, row: str, lost: list[str]) -> None:
+    path = folder / "own.toml"
+    path.write_text(asked(("one", row)), "utf-8")
+    found = Machine(WIRING, "my.toml", path, folder / "use.toml", runs=20).all(20)
+    assert [one.asked.id for one in found if one.word == "NOT ASKED"] == lost
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [('S_Drive = ""', "unasked.S_Drive: say why"), ('S_Drve = "x"', "no such name; did you mean 'S_Drive'")],
+)
+def test_an_excuse_names_something_and_says_why(folder: Path, said: str, words: str) -> None:
+    with pytest.raises(Unjudged, match=words):
+        left_out(folder, WIRING, said)
