@@ -69,7 +69,8 @@ def test_what_is_wrong_stands_first(project: Path, capsys: pytest.CaptureFixture
     assert status == 1
     assert states(project) == {"bad": "failed", "never": "open", "good": "stands"}
     assert list(states(project)) == ["bad", "never", "good"]
-    order = [page.index(f'id="entry-{n}-title">{name}') for n, name in ((1, "bad"), (2, "never"), (3, "good"))]
+    names = enumerate(("bad", "never", "good"), 1)
+    order = [page.index(f'id="entry-{number}-title">{name}') for number, name in names]
     assert order == sorted(order)
     assert "never judged" in capsys.readouterr().out
 
@@ -118,7 +119,7 @@ def test_a_difference_has_clause_line_diagram_and_command(project: Path) -> None
     assert "prefers-color-scheme" not in page
 
 
-def test_the_page_needs_nothing_from_outside_and_is_the_same_again(project: Path) -> None:
+def test_the_page_is_alone_and_the_same_again(project: Path) -> None:
     _, page = made(project)
     assert page == made(project)[1]
     assert not re.search(r'(?:src|href)="(?!#|data:)', page)
