@@ -61,7 +61,7 @@ class Watched:
     lines: Mapping[str, int]
 
     def place(self, name: str) -> Place:
-        """Where an observer stands."""
+        """Where an observer is."""
         return Place(self.file, self.lines.get(f"observer.{name}", 1))
 
 
@@ -155,7 +155,7 @@ def kind_of(wiring: Wiring, watched: Watched, text: str, place: Place, of: str) 
 
 @dataclass(frozen=True)
 class _Spelling:
-    """What stands in one condition of a property or an observer."""
+    """What is in one condition of a property or an observer."""
 
     wiring: Wiring
     watched: Watched

@@ -90,7 +90,7 @@ def _killer(machine: Machine, killer: Killer) -> dict[str, Any]:
 
 
 def _was(machine: Machine, row: str) -> str:
-    """What stands in a row; nothing for the order, of which the evidence has the whole."""
+    """What is in a row; nothing for the order, of which the evidence has the whole."""
     value: Any = machine.table
     for key in row.split("."):
         value = value[key]
@@ -99,7 +99,7 @@ def _was(machine: Machine, row: str) -> str:
 
 
 def _trial(machine: Machine, path: Path) -> dict[str, Any]:
-    """What became of the edits of this very wiring, and with how many of them each property falls."""
+    """What became of the edits of this very wiring, and how many of them break each property."""
     names = {edit.id for edit in edits(machine.text, machine.wiring)}
     rows = {name: row for name, row in read_outcomes(path, basis_of(machine)).items() if name in names}
     return {

@@ -1,4 +1,4 @@
-"""What makes each property of the machine fall: one edit of the wiring, and the scans from power-up.
+"""What breaks each property of the machine: one edit of the wiring, and the scans from power-up.
 
 A property that nothing breaks says nothing. So each has a row in killers.toml, and whoever judges the
 machine plays the scans again: the edited wiring breaks the property in the last of them, the wiring as it is
@@ -61,7 +61,7 @@ def read_killers(path: Path) -> list[Killer]:
 
 @dataclass(frozen=True)
 class Killers:
-    """Judges and looks for what makes the properties of a machine fall."""
+    """Judges and looks for what breaks the properties of a machine."""
 
     machine: Machine
 
@@ -82,7 +82,7 @@ class Killers:
         return Machine(*given, leave_out=base.leave_out).runner
 
     def doubt(self, killer: Killer) -> str:
-        """Why a row does not show that its property can fall; nothing if it does."""
+        """Why a row does not show that its property can fail; nothing if it does."""
         row, edit = self.rows.get(killer.property), self.edits.get(name_of(killer))
         if row is None or edit is None:
             return "there is no such property" if row is None else "this is no edit of the wiring"
@@ -103,7 +103,7 @@ class Killers:
         found = {
             id: f"{name_of(killer)}: {why}" for id, killer in there.items() if (why := self.doubt(killer))
         }
-        missing = "no edit of the wiring is known with which it falls"
+        missing = "no edit of the wiring is known that breaks it"
         return found | {id: missing for id in self.rows if id not in there}
 
     def scans(self, killer: Killer) -> list[Scan]:
@@ -127,7 +127,7 @@ class Killers:
         return found
 
     def sought(self, ids: Sequence[str], names: Sequence[str]) -> dict[str, Killer]:
-        """For properties an edit of these with which each falls, as far as runs find one, and its scans."""
+        """For properties an edit of these that breaks each, as far as runs find one, and its scans."""
         found: dict[str, Killer] = {}
         for name in names:
             left = [id for id in ids if id not in found]
@@ -169,7 +169,7 @@ def _all(count: int, seen: Seen) -> bool:
 
 
 def lines_of(scans: Sequence[Scan]) -> Iterator[str]:
-    """Scans as they stand in the file: one in which an input changes, then those in which none does."""
+    """Scans as they are in the file: one in which an input changes, then those in which none does."""
     before: Mapping[str, Value] = {}
     lines: list[tuple[str, list[int]]] = []
     for dt_ms, given in scans:

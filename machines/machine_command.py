@@ -33,11 +33,11 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
+from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates.certificate_folder import tools
 from programs.commands.prove_properties import TRUSTED
-from programs.commands.results import Case, junit_of
 from programs.language.tool_differences import assumed
 
 FOLDER = Path("spec/machine_cell")
@@ -234,7 +234,7 @@ def _verdict(machine: Machine, verdict: Verdict) -> Iterator[str]:
 
 
 def trace_lines(rows: Sequence[tuple[int, str, str]]) -> Iterator[str]:
-    """The rows of a trace; scans in which nothing changes stand in one line."""
+    """The rows of a trace; scans in which nothing changes are in one line."""
 
     def alike(numbered: tuple[int, tuple[int, str, str]]) -> tuple[int, ...]:
         number, (dt_ms, given, gives) = numbered
@@ -326,7 +326,7 @@ def _killers(machine: Machine, folder: Path) -> int:
     write_text(path, as_rows(found))
     left = judge.problems(found)
     said = [f"{id}: {why}" for id, why in left.items()]
-    print("\n".join([*said, f"{path}: {len(found)} of {len(judge.rows)} properties fall with an edit"]))
+    print("\n".join([*said, f"{path}: {len(found)} of {len(judge.rows)} properties are broken by an edit"]))
     return 1 if left else 0
 
 

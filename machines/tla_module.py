@@ -167,7 +167,7 @@ class Module(Model):
 
 
 def _let(lines: Sequence[str], lead: str) -> Iterator[str]:
-    """Names for values. A set of one value, because TLC works out a LET anew wherever its name stands."""
+    """Names for values. A set of one value, because TLC works out a LET anew wherever its name is."""
     for line in lines:
         name, _, text = line.partition(" == ")
         yield f"{lead}\\E {name} \\in {{{text}}} :"

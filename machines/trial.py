@@ -53,7 +53,7 @@ class Edit:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of an edit. by: the properties that were seen to fall, or why it is harmless."""
+    """What became of an edit. by: the properties that were seen to fail, or why it is harmless."""
 
     edit: Edit
     word: str

@@ -40,7 +40,7 @@ class Use:
     """The line of a row such as `rest.Start`, and of the head of `story.0`."""
 
     def place(self, row: str) -> Place:
-        """Where a row stands, or the table that it is in."""
+        """Where a row is, or the table that it is in."""
         return Place(self.file, self.lines.get(row, self.lines.get(row.partition(".")[0], 1)))
 
 

@@ -220,7 +220,7 @@ def _check(own: Unit, wiring: Wiring, sources: Mapping[str, Unit]) -> None:
                 f"{name} is a signal of {wiring.file}, and properties mean that; give yours another name"
             )
     for place in _returns(own.body):
-        raise place.refuse("RETURN in the program itself: what is watched stands at its end")
+        raise place.refuse("RETURN in the program itself: what is watched comes at its end")
 
 
 def _returns(body: Body) -> Iterator[Place]:

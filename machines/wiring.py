@@ -128,7 +128,7 @@ class Wiring:
     """The line of each row, such as `block.guard.inputs.Reset`."""
 
     def place(self, row: str) -> Place:
-        """Where a row stands; the nearest row above it where it has no line of its own."""
+        """Where a row is; the nearest row above it where it has no line of its own."""
         return _place(self.file, self.lines, row)
 
     def refuse(self, row: str, text: str) -> Unjudged:
@@ -307,13 +307,13 @@ def wiring_of(text: str, file: str) -> Wiring:
 
 
 def _twice(text: str, file: str) -> None:
-    """Refuse a row that stands there twice: two sources for one input."""
+    """Refuse a row that is there twice: two sources for one input."""
     seen: dict[str, int] = {}
     for number, row in rows_of(text):
         first = seen.setdefault(row.lower(), number)
         if first != number:
             what = "two sources for one input" if ".inputs." in row else "a row that is there already"
-            raise Place(file, number).refuse(f"{row}: {what}; the first stands in line {first}")
+            raise Place(file, number).refuse(f"{row}: {what}; the first is in line {first}")
 
 
 def _check(wiring: Wiring) -> None:
@@ -370,7 +370,7 @@ def _check_block(wiring: Wiring, name: str, row: Row) -> None:
     pins, here = wiring.kinds[name], f"block.{name}"
     for pin in row.inputs:
         if pin in pins.parameters:
-            raise wiring.refuse(f"{here}.inputs.{pin}", "is a parameter; it stands in `parameters`")
+            raise wiring.refuse(f"{here}.inputs.{pin}", "is a parameter; it belongs in `parameters`")
         if pin not in pins.inputs:
             cause = f"{row.of} has no input {pin!r}; {suggestion(pin, pins.inputs)}"
             raise wiring.refuse(f"{here}.inputs.{pin}", cause)
@@ -407,7 +407,7 @@ def _check_order(wiring: Wiring) -> None:
             raise wiring.refuse("order", f"no block {name!r}; {suggestion(name, known)}")
     for name in known:
         if name not in order:
-            raise wiring.refuse(f"block.{name}", "is not called: it stands in no place of `order`")
+            raise wiring.refuse(f"block.{name}", "is not called: `order` does not name it")
 
 
 def _check_matrix(wiring: Wiring) -> None:

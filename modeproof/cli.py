@@ -251,14 +251,14 @@ def _add(commands: Any, name: str) -> None:
 
 def _complete() -> None:
     """Answer the shell what may come next in its line, and end. See `completion`."""
-    import argcomplete
+    from modeproof.lane.completion import answer
 
     line = os.environ.get("COMP_LINE", "")[: int(os.environ.get("COMP_POINT", "0"))]
     words = line.split()[1:]
     typed = words if line[-1:].isspace() else words[:-1]
     known = next((word for word in typed if word in COMMANDS), None)
     with contextlib.suppress(Unjudged):  # a command whose packages are missing has nothing to offer
-        argcomplete.autocomplete(make_parser([known] if known else []))
+        answer(make_parser([known] if known else []))
 
 
 def _complain(line: str) -> None:

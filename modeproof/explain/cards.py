@@ -108,7 +108,7 @@ def _machine_property(root: Path, thing: Thing) -> Lines:
     yield "it says", str(row.get("sentence", ""))
     yield "if it is not so", str(row.get("hazard", ""))
     yield "in the file", "; ".join(f"{key} {row[key]}" for key in ("holds", "only_if") if key in row)
-    yield "stands on", ", ".join(row.get("cites", ()))
+    yield "rests on", ", ".join(row.get("cites", ()))
     record = record_of(root, name, "machine") or {}
     judged = {one["id"]: one["verdict"] for one in record.get("result", {}).get("verdicts", ())}
     whole = verdict(root, name, "machine")

@@ -63,7 +63,7 @@ class InputClass:
 
 @dataclass(frozen=True)
 class Copied:
-    """The two `words` of the alphabet stand in the `fields` for any two words other than zero."""
+    """The two `words` of the alphabet are in the `fields` for any two words other than zero."""
 
     fields: tuple[str, ...]
     words: tuple[int, int]

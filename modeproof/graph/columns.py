@@ -25,7 +25,7 @@ class Columns:
 def merge_columns(device: DeviceGraph) -> Columns:
     """Two inputs share a column when in every state they take the same step to the same state.
 
-    Inputs that are passed on to an output keep a column for each of their values. The columns stand in the
+    Inputs that are passed on to an output keep a column for each of their values. The columns are in the
     order of their first members.
     """
     graph = device.graph

@@ -8,7 +8,7 @@
 TLC prints them as strings; both that form, with quotes and escapes, and the unquoted one are read.
 Views are names and no more. A line of another form, a cut last line, an edge to a view without STATE line, a
 pair of state and input without edge or with two, and counts other than those of TLC are refused: a graph that
-is not complete is never used. TLC's own framed messages (-tool) may stand between the lines; then their
+is not complete is never used. TLC's own framed messages (-tool) may be between the lines; then their
 counts are compared too.
 """
 

@@ -1,1 +1,1 @@
-"""What every other room stands on: places, errors, the lock, progress, processes, evidence."""
+"""What every other room rests on: places, errors, the lock, progress, processes, evidence."""

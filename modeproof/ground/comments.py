@@ -12,7 +12,7 @@ _VISIBLE = re.compile(r"[^\n]")
 def split(text: str) -> tuple[str, str, list[tuple[int, int]]]:
     """The text without comments, the same without strings, and the spans of the comments.
 
-    Blanks stand in the place of what is left out, so that all else keeps its line and column.
+    Blanks are in the place of what is left out, so that all else keeps its line and column.
     """
     code: list[str] = []
     bare: list[str] = []

@@ -89,7 +89,7 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
 
     An entry is a file, a folder (all modules directly in it), or the dotted name of a module or package. A
     Python module needs what it imports anywhere in it, by a string too, and each file whose path from the
-    root is one of its strings; a TLA+ module needs the modules beside it and in spec/common whose names stand
+    root is one of its strings; a TLA+ module needs the modules beside it and in spec/common whose names are
     in it. What is loaded by a name put
     together at run time is an entry of its own. Raises Unjudged for an entry that is not there.
     """

@@ -124,7 +124,7 @@ def in_checkout(place: Path) -> bool:
 def build(place: Path) -> Path:
     """The folder for all that is made: graphs, logs, evidence, reports. Never under version control.
 
-    MODEPROOF_STATE names it; else it is `build` of a checkout, for whoever stands in it, and `.modeproof` of
+    MODEPROOF_STATE names it; else it is `build` of a checkout, for whoever is in it, and `.modeproof` of
     the user's project for everybody else.
     """
     named = os.environ.get("MODEPROOF_STATE")

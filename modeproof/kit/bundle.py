@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.errors import Unjudged, suggestion
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.vectors import FILE_NAME, Suite, open_suite, same_rows
 
 FOLDER = "vectors"
 CONTENTS = "contents.json"
@@ -61,3 +61,19 @@ class Bundle:
         if not chosen:
             raise Unjudged(f"no suite of {target} is for relation {relation}")
         return chosen
+
+
+def not_published(suite: Suite) -> str:
+    """What a verdict says of a vector file that somebody handed over: nothing where it is a published one.
+
+    A verdict on cases that were cut short, or on a file of one's own, must not look like one on the suite.
+    """
+    place = Path(__file__).resolve().parents[2] / FOLDER / suite.target
+    try:
+        known = open_suite(place / FILE_NAME.format(suite=suite.name))
+    except Unjudged:  # the packed kit has them inside
+        try:
+            (known,) = Bundle.own().suites(suite.target, [suite.name], suite.relations[0])
+        except Unjudged:
+            return "not published"
+    return "" if same_rows(known, suite) else "not as published"

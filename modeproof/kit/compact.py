@@ -1,6 +1,6 @@
 """Walks through a graph in a tenth of the room that gzip needs for them.
 
-Of each scan only its column is stored where it stands. Its input comes from the list of the inputs of this
+Of each scan only its column is stored where it is. Its input comes from the list of the inputs of this
 column, in the order of their use, which repeats itself; its step and the state after it are those of state
 and column; its outputs are those of that state, and where that is not enough, of that input. A file in which
 this is not so is refused, and stays as it is. Ids are made again from what goes in.

@@ -1,4 +1,4 @@
-"""The safety properties of a target, judged scan by scan on what stands on its wires, whatever its steps.
+"""The safety properties of a target, judged scan by scan on what is on its wires, whatever its steps.
 
 The header of a vector file holds them under `contract`, as data:
 
@@ -9,14 +9,14 @@ The header of a vector file holds them under `contract`, as data:
      "properties": [{"id": "LampNeedsLevel", "says": "..", "clauses": [".."],
                      "when": "LAMP", "holds": "seen"}]}
 
-Rules are evaluated in their order in every scan. Of kind `value` is what stands there now; a `memory` keeps
+Rules are evaluated in their order in every scan. Of kind `value` is what is there now; a `memory` keeps
 its value until its place comes in the next scan, and starts with `starts`; `recent` is the list of the values
 in this scan and as many before it as the program may need to show what its inputs have done (`latency`, from
 0). A property must hold in every scan in which its `when` does.
 
 An expression is one in Python's notation, of: and or not, comparisons, in, + and -, `x if c else y`, lists,
 list[number], and the functions count index len max min sum. Names: inputs, outputs, parameters, `was_NAME`
-for an input or output in the scan before (0, false, or none before the first), constants, rules that stand
+for an input or output in the scan before (0, false, or none before the first), constants, rules that are
 before (of kind `memory` all), `dt_ms` and `latency`. Words are numbers; a mode that is not there is -1, an
 absent text "".
 """

@@ -15,7 +15,7 @@ from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program, split_command
 from modeproof.kit.builtin import package_files
-from modeproof.kit.bundle import Bundle
+from modeproof.kit.bundle import Bundle, not_published
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.machine_parameters import with_parameters
 from modeproof.kit.machine_reference import program_of
@@ -224,6 +224,8 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
             verdict = _judge(args, suite)
             verdict.params = tuple(args.param)
             verdict.profile = profiles.get(suite.name, "")
+            if args.vectors is not None and (doubt := not_published(suite)):
+                verdict.suite = f"{verdict.suite}, {doubt}"
             verdicts.append(verdict)
             last = suite is suites[-1] or verdict.interrupted
             say(as_text(verdict, again(args, suite, verdict), suite, last))

@@ -24,7 +24,7 @@ from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
 BATCH = 64
 """Scans in one `scans` request."""
 STABLE = 2
-"""Scans for which settled outputs must stand."""
+"""Scans for which settled outputs must stay."""
 MOST_LATENCY = 10_000
 LONGEST_NAME = 100
 """Characters of what a program calls itself."""

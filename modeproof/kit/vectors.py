@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import gzip
 import hashlib
+import itertools
 import json
 import zipfile
 import zlib
@@ -33,7 +34,7 @@ from modeproof.kit.signals import Signal, loads, read_signals, shown
 
 KIND, VERSION = "modeproof-vectors", 1
 EXACT, SETTLED, MONITOR = "exact", "settled", "monitor"
-"""The relations: each scan's outputs; the outputs once they stand still; the safety properties alone."""
+"""The relations: each scan's outputs; the outputs once they do not change; the safety properties alone."""
 PACKED = ".gz"
 """The suffix of a file that is packed with gzip."""
 COMPACT = ".compact"
@@ -317,6 +318,12 @@ def content_hash(suite: Suite) -> str:
     for _, row in _rows(suite.path, suite.member):
         found.update(json.dumps(row, sort_keys=True).encode())
     return found.hexdigest()
+
+
+def same_rows(one: Suite, other: Suite) -> bool:
+    """Whether two vector files hold the same header and the same cases."""
+    rows = (_rows(suite.path, suite.member) for suite in (one, other))
+    return all(pair[0] == pair[1] for pair in itertools.zip_longest(*rows))
 
 
 def _rows(path: Path, member: str) -> Iterator[tuple[int, Mapping[str, Any]]]:

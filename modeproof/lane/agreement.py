@@ -32,7 +32,7 @@ def compare(
 ) -> dict[str, Any]:
     """Compare the rows with the verdicts on the theorems, by name, and write one piece of evidence.
 
-    EQUAL: where the runs hold the theorem is proved, or a reason stands beside it, and no theorem does
+    EQUAL: where the runs hold the theorem is proved, or a reason is beside it, and no theorem does
     without an assumption that the model checker needs. Else DIFFERS.
     """
     evidence.discard(place, document, ID)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import Any, cast
 
 from modeproof.ground.errors import EXIT_AS_EXPECTED, Unjudged
+from modeproof.ground.places import documents, root
 
 HOW = {
     "bash": 'add to ~/.bashrc: eval "$(modeproof completion bash)"',
@@ -24,6 +25,29 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("shell", choices=list(HOW), help="whose lines are printed")
     parser.set_defaults(run=run)
+
+
+def answer(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell that asks, from the commands and options of a parser, and end."""
+    import argcomplete
+
+    argcomplete.autocomplete(parser, default_completer=cast(Any, _values))
+
+
+def _values(prefix: str, action: argparse.Action, **given: Any) -> list[str]:
+    """What may stand for an argument that has no list of its own: names of this project, else files."""
+    from argcomplete.completers import FilesCompleter
+
+    place = root()
+    if action.dest in ("target", "targets"):
+        return [folder.name for folder in sorted((place / "vectors").glob("*/"))]
+    if action.dest == "document":
+        return list(documents(place))
+    if action.dest == "word":
+        from modeproof.explain.things import names
+
+        return names(place)
+    return [str(name) for name in FilesCompleter()(prefix)]
 
 
 def run(args: argparse.Namespace) -> int:

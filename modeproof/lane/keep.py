@@ -20,7 +20,7 @@ KEPT = "kept"
 
 
 class Keep:
-    """Judges which results stand, and remembers why the others are judged again. anew: none stands."""
+    """Judges which results are still valid, and remembers why the others are judged again. anew: none is."""
 
     def __init__(self, anew: bool = True) -> None:
         self.anew = anew
@@ -35,7 +35,7 @@ class Keep:
         rests: Rests | Callable[[], Rests],
         doubt: Callable[[Record], str] | None = None,
     ) -> Record | None:
-        """The evidence of a result that stands; None: it must be judged.
+        """The evidence of a result that is still valid; None: it must be judged.
 
         Its own figures are judged once more, by `doubt` if that is given. What it rests on is asked only
         where there is evidence; where that cannot be said nothing is kept.

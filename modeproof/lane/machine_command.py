@@ -98,7 +98,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--killers",
         action="store_true",
-        help="write killers.toml anew: for each property an edit with which it falls, and the scans",
+        help="write killers.toml anew: for each property an edit that breaks it, and the scans",
     )
     parser.add_argument(
         "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"
@@ -239,7 +239,7 @@ def _models(place: Path, folder: Path, kept: Mapping[str, dict[str, Any]]) -> It
 
 
 def troubles_of_machine(place: Path, name: str) -> str:
-    """What is wrong with it as far as is seen in a second: the reader, and that each property can fall."""
+    """What is wrong with it as far as is seen in a second: the reader, and that each property can fail."""
     try:
         with needing_solvers():
             from machines.evidence import looked_at

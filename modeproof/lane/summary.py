@@ -111,14 +111,14 @@ def total(count: int, lines: Sequence[Line], records: Sequence[Record], seconds:
 
 
 def machine_line(record: Record) -> str:
-    """A machine of the project's own: it stands apart, and is counted with no document."""
+    """A machine of the project's own: it is shown apart, and is counted with no document."""
     rows = record["result"].get("verdicts", [])
     good = sum(row["verdict"] == "PROVED" for row in rows)
     words = f"{good} of {len(rows)} PROVED by Z3, re-checked by cvc5" if rows else record["verdict"]
     falls = len(record["result"].get("killers", []))
     models = record["result"].get("models", [])
     kept = sum(row["as_expected"] for row in models)
-    line = f"{'machine':<12} {words}, {record['seconds']:.1f} s; {falls} of {len(rows)} fall with an edit"
+    line = f"{'machine':<12} {words}, {record['seconds']:.1f} s; {falls} of {len(rows)} are broken by an edit"
     line += f"; {kept} of {len(models)} runs of TLC as expected" if models else "; no run of TLC"
     return f"{line}; {record['document']} is our own design, no document"
 

@@ -1,4 +1,4 @@
-"""The command `modeproof walks`: what stood on the wires in every recorded counterexample.
+"""The command `modeproof walks`: what was on the wires in every recorded counterexample.
 
 The evidence of a counterexample holds the variables of the specification. A walk (modeproof.tlc.walk) adds
 the words on the wires, who executed each step, and what the decided device does in its place; the report and

@@ -64,7 +64,7 @@ class Rule(_Row, frozen=True, kw_only=True):
     kind: Literal["clause", "finding", "property", "target", "log"]
     sentence: str
     source: str = ""
-    """Where it stands: a document and its page, or a file."""
+    """Where it is: a document and its page, or a file."""
 
 
 class Scan(_Row, frozen=True, kw_only=True):

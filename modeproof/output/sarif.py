@@ -45,11 +45,16 @@ _UNJUDGED = Rule(
 
 def as_sarif(outcome: Outcome) -> str:
     """The text of a SARIF file."""
-    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [_run(outcome)]}
+    return as_sarif_of({_id(outcome): outcome})
+
+
+def as_sarif_of(outcomes: Mapping[str, Outcome]) -> str:
+    """The same, with a run for each outcome; the ids tell the runs apart, in this commit and the next."""
+    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [_run(*row) for row in outcomes.items()]}
     return json.dumps(log, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _run(outcome: Outcome) -> dict[str, Any]:
+def _run(id: str, outcome: Outcome) -> dict[str, Any]:
     problems = list(_problems(outcome))
     rules = {rule.id: rule for _, problem in problems for rule in (problem.rule, *problem.others)}
     order = list(rules)
@@ -75,7 +80,7 @@ def _run(outcome: Outcome) -> dict[str, Any]:
     }
     return {
         "tool": {"driver": driver, **({"extensions": extensions} if extensions else {})},
-        "automationDetails": {"id": _id(outcome)},
+        "automationDetails": {"id": id},
         "invocations": [_invocation(outcome)],
         "originalUriBaseIds": {BASE: {"description": {"text": "The project folder."}}},
         "artifacts": [_artifact(file) for file in outcome.files],

@@ -59,7 +59,7 @@ def basis_path(name: str) -> Path:
 
 
 def kept(name: str, basis: Basis, folder: Path) -> tuple[Outcome | None, str]:
-    """The result of an entry that still stands, or why there is none."""
+    """The result of an entry that is still valid, or why there is none."""
     path = basis_path(name)
     if not path.exists():
         return None, FIRST
@@ -88,7 +88,7 @@ def kept(name: str, basis: Basis, folder: Path) -> tuple[Outcome | None, str]:
 
 def keep(name: str, basis: Basis, found: Outcome) -> None:
     """Note what the record of an entry rests on. Raises Unjudged."""
-    read = {file.path: file.sha256 for file in found.files}
+    read = {file.path: file.sha256 for file in found.files if not file.path.startswith(outcome.TOOL)}
     table: dict[str, Any] = {
         "version": VERSION,
         "record": digest(record_path(name)),

@@ -100,7 +100,7 @@ class Program(Row, frozen=True, kw_only=True):
 
     @property
     def inline(self) -> Binding | None:
-        """The binding that stands in the project file itself."""
+        """The binding that is in the project file itself."""
         if self.profile is None:
             return self.binding if isinstance(self.binding, Binding) else None
         written = self.binding if isinstance(self.binding, Binding) else Binding()

@@ -190,7 +190,7 @@ def _slashes(path: str) -> str:
 
 
 def _no_toml(shown: str, rows: list[tuple[int, str]], cause: str) -> str:
-    """Why a text is no TOML; of an entry that stands there twice, where both are."""
+    """Why a text is no TOML; of an entry that is there twice, where both are."""
     found = _IN_LINE.search(cause)
     number = int(found[1]) if found else 0
     what = " ".join(_IN_LINE.sub("", cause).split())

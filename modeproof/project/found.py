@@ -27,7 +27,7 @@ FOREIGN = {
 MOST = 20_000
 """Files that are looked at."""
 HEAD = 4_000
-"""Bytes at the beginning of an XML file in which PLCopen's name stands."""
+"""Bytes at the beginning of an XML file that must have PLCopen's name."""
 
 
 @dataclass

@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
-from modeproof.ground.places import PROJECT_FILE, project
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import PROJECT_FILE, build, project, root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
+from modeproof.project import forms
 from modeproof.project.checks import problems_of
 from modeproof.project.file import Listed, Wrong, read
 from modeproof.project.judging import Judged, Judging
@@ -35,6 +37,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--jobs", type=_jobs, default=cores(), metavar="N", help=f"so many at once (default {cores()})"
     )
+    forms.add_options(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
     return parser
@@ -62,24 +65,35 @@ def run(args: argparse.Namespace) -> int:
         return EXIT_UNJUDGED
     if not entries:
         raise Unjudged(f"{judging.project.shown}: lists nothing to judge (docs/your-project.md)")
+    _keep_out_of_git(build(root()))
+    watch = Watch(partial(begin, quiet=True), judging, entries) if args.watch else None
     found = judging.all(entries, args.anew)
     show(judging, found)
-    if not args.watch:
+    forms.write(args, found)
+    if watch is None:
         return status_of(found)
     print("watching; Ctrl-C ends it", file=sys.stderr, flush=True)
-    return Watch(begin, found).run(judging, entries)
+    return watch.run(found)
 
 
-def begun(path: Path, args: argparse.Namespace) -> tuple[Judging, Sequence[Listed]]:
+def _keep_out_of_git(state: Path) -> None:
+    """Results are no sources: what makes their folder says so to git. Raises Unjudged."""
+    ours = state / ".gitignore"
+    if state == project() / ".modeproof" and not ours.exists():
+        write_whole(ours, b"*\n")
+
+
+def begun(path: Path, args: argparse.Namespace, quiet: bool = False) -> tuple[Judging, Sequence[Listed]]:
     """The project file as it is now, with the entries asked for. Raises Unjudged and Wrong."""
     read_in = read(path, Path(os.path.relpath(path)).as_posix())
     entries = read_in.chosen(args.names)
     if wrong := list(problems_of(read_in, entries)):
         raise Wrong(wrong)
-    progress = Progress(quiet=args.quiet)
+    quiet = quiet or args.quiet
+    progress = Progress(quiet=quiet)
 
     def say(line: str) -> None:
-        if not args.quiet:
+        if not quiet:
             print(line, file=sys.stderr, flush=True)
 
     return Judging(read_in, args.jobs, progress, say), entries

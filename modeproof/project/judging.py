@@ -41,7 +41,7 @@ GRACE_S = 5.0
 
 @dataclass(frozen=True)
 class Judged:
-    """What came of an entry. kept: it was found before, and still stands."""
+    """What came of an entry. kept: it was found before, and is still valid."""
 
     entry: Listed
     outcome: Outcome
@@ -175,6 +175,8 @@ class Judging:
             write_whole(path, binding_text(row.inline).encode())
             file = str(path)
         status, told = self._run([*row.words(str, file), "--record", str(record)])
+        if self.over:
+            raise Unjudged("interrupted: no verdict; what was finished before is kept")
         if not record.is_file():
             return self._unjudged(entry, told or f"the command ended with status {status}"), before
         found = outcome.read(record)
@@ -189,7 +191,7 @@ class Judging:
         env = {**os.environ, "PYTHONIOENCODING": "utf-8", "MODEPROOF_STATE": str(build(root()))}
         with self.guard:
             if self.over:
-                raise Unjudged("interrupted")
+                raise Unjudged("interrupted: no verdict; what was finished before is kept")
             child = subprocess.Popen(
                 argv,
                 cwd=self.folder,

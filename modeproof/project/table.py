@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from modeproof.kit.errors import plain
-from modeproof.output.outcome import Outcome
+from modeproof.output.outcome import Outcome, Problem
 from modeproof.project.judging import Judged, Judging
 
 HEAD = ("entry", "verdict", "about", "", "seconds")
@@ -45,19 +45,32 @@ def about(found: Outcome) -> str:
     if not found.status:
         count = len(found.demands)
         return f"{count} properties" if count > 1 else found.target or found.subject
-    named = list(dict.fromkeys(rule for _, problem in found.problems for rule in [problem.rule.id]))
+    named = list(dict.fromkeys(id for _, problem in found.problems for id in ids_of(problem)))
     named = named or [demand.id for demand in found.demands if demand.word not in ("PROVED", "CONFORMS")]
     more = f" and {len(named) - MOST} more" if len(named) > MOST else ""
     verb = "breaks" if found.status == 1 else "not shown:"
     return f"{verb} {', '.join(named[:MOST])}{more}" if named else found.target or found.subject
 
 
+def line_of(found: Outcome) -> str:
+    """The verdict, and what is broken, in a few words."""
+    return f"{found.word}, {about(found)}" if found.status else found.word
+
+
+def ids_of(problem: Problem) -> list[str]:
+    """The clauses or the property that a problem is about; of a whole target or log those that it touches."""
+    clauses = [rule.id for rule in problem.others if rule.kind == "clause"]
+    return clauses if problem.rule.kind in ("target", "log") and clauses else [problem.rule.id]
+
+
 def why(found: Outcome) -> str:
-    """Why an entry is not well, in one line."""
-    if found.reason:
-        return found.reason
-    problems = [problem.message for _, problem in found.problems]
-    return problems[0] if problems else found.sentence
+    """Why an entry is not well, in one line, with the place in the program where that is known."""
+    if found.reason or not found.problems:
+        return found.reason or found.sentence
+    _, problem = found.problems[0]
+    spot = problem.spot
+    where = f"{spot.file}:{spot.line}: " if spot is not None and spot.line else ""
+    return f"{where}{problem.message}"
 
 
 def status_of(found: Sequence[Judged]) -> int:

@@ -5,16 +5,17 @@ from __future__ import annotations
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
+from modeproof.output.outcome import TOOL
 from modeproof.project.basis import digest
 from modeproof.project.file import Listed, Wrong
 from modeproof.project.judging import Judged, Judging
-from modeproof.project.table import about, status_of
+from modeproof.project.table import line_of, status_of
 
 EVERY_S = 0.3
 Stamp = tuple[int, int] | None
@@ -28,54 +29,62 @@ class Watch:
     """
 
     def __init__(
-        self, begin: Callable[[], tuple[Judging, Sequence[Listed]]], found: Sequence[Judged]
+        self,
+        begin: Callable[[], tuple[Judging, Sequence[Listed]]],
+        judging: Judging,
+        entries: Sequence[Listed],
     ) -> None:
         self.begin = begin
-        self.found = {one.entry.name: one for one in found}
+        self.judging, self.entries = judging, entries
+        self.found: Sequence[Judged] = ()
         self.broken = False
         self.stamps: dict[Path, Stamp] = {}
         self.hashes: dict[Path, str | None] = {}
+        self._look()
 
-    def run(self, judging: Judging, entries: Sequence[Listed]) -> int:
-        """Watch until Ctrl-C; the status of what was found last."""
-        self._look(judging, entries)
+    def run(self, found: Sequence[Judged]) -> int:
+        """Watch until Ctrl-C; the status of what was found last. found: before it begins."""
+        self._take(found)
         over = threading.Event()
-        with _until_interrupted(over, judging) as hold:
-            while not over.is_set():
-                over.wait(EVERY_S)
-                changed = self._changed()
-                if not changed or over.is_set():
+        with _until_interrupted(over, self):
+            while not over.wait(EVERY_S):
+                if not (changed := self._changed()):
                     continue
                 try:
-                    judging, entries = self.begin()
-                    hold(judging)
-                    self._again(judging, entries, changed)
+                    self.judging, self.entries = self.begin()
+                    self._again(changed)
                     self.broken = False
-                except Wrong as error:
-                    self._say(changed, "; ".join(error.lines))
-                    self.broken = True
-                except Unjudged as error:
+                except (Wrong, Unjudged) as error:
                     if not over.is_set():
-                        self._say(changed, error.message)
+                        said = error.lines if isinstance(error, Wrong) else [error.message]
+                        self._say(changed, "; ".join(said))
                         self.broken = True
-        return 2 if self.broken else status_of(list(self.found.values()))
+        return EXIT_UNJUDGED if self.broken else status_of(self.found)
 
-    def _again(self, judging: Judging, entries: Sequence[Listed], changed: Sequence[Path]) -> None:
+    def _again(self, changed: Sequence[Path]) -> None:
         started = time.monotonic()
-        before = self.found
-        judged = judging.all(entries)
-        self.found = {one.entry.name: one for one in judged}
-        self._look(judging, entries)
+        before = {one.entry.name for one in self.found}
+        self._look()
+        judged = self.judging.all(self.entries)
         anew = [one for one in judged if not one.kept or one.entry.name not in before]
-        said = ", ".join(f"{one.entry.name} {one.outcome.word} ({about(one.outcome)})" for one in anew)
+        said = "; ".join(f"{one.entry.name} {line_of(one.outcome)}" for one in anew)
         self._say(changed, f"{said or 'nothing to judge again'}, {time.monotonic() - started:.1f} s")
+        self._take(judged)
 
-    def _look(self, judging: Judging, entries: Sequence[Listed]) -> None:
-        folder = judging.folder
-        files = {folder / name for entry in entries for name in judging.basis(entry).files}
-        files |= {folder / file.path for one in self.found.values() for file in one.outcome.files}
-        self.stamps = {path: _stamp(path) for path in (judging.project.path, *sorted(files))}
-        self.hashes = {path: digest(path) for path in self.stamps}
+    def _look(self) -> None:
+        """Note the files that the entries name as they are now, before they are judged."""
+        folder = self.judging.folder
+        files = {folder / name for entry in self.entries for name in self.judging.basis(entry).files}
+        for path in (self.judging.project.path, *sorted(files)):
+            self.stamps[path], self.hashes[path] = _stamp(path), digest(path)
+
+    def _take(self, found: Sequence[Judged]) -> None:
+        """Note what was found, and the files besides that were read for it, as they were then."""
+        self.found = found
+        for file in (file for one in found for file in one.outcome.files):
+            path = self.judging.folder / file.path
+            if path not in self.stamps and not file.path.startswith(TOOL):
+                self.stamps[path], self.hashes[path] = None, file.sha256
 
     def _changed(self) -> list[Path]:
         """The files whose content is another; one that is gone too."""
@@ -102,23 +111,16 @@ def _stamp(path: Path) -> Stamp:
 
 
 @contextmanager
-def _until_interrupted(over: threading.Event, first: Judging) -> Iterator[Callable[[Judging], None]]:
+def _until_interrupted(over: threading.Event, watch: Watch) -> Iterator[None]:
     """Ctrl-C ends the watch, and the commands that run; a second one is as anywhere else."""
-    now = [first]
-    before: Mapping[int, Any] = {}
 
     def stop(number: int, frame: Any) -> None:
         over.set()
-        signal.signal(signal.SIGINT, before[signal.SIGINT])
-        threading.Thread(target=now[0].end).start()
+        signal.signal(signal.SIGINT, before)
+        threading.Thread(target=watch.judging.end).start()
 
-    def hold(judging: Judging) -> None:
-        now[0] = judging
-        if over.is_set():
-            judging.end()
-
-    before = {signal.SIGINT: signal.signal(signal.SIGINT, stop)}
+    before = signal.signal(signal.SIGINT, stop)
     try:
-        yield hold
+        yield
     finally:
-        signal.signal(signal.SIGINT, before[signal.SIGINT])
+        signal.signal(signal.SIGINT, before)

@@ -44,13 +44,13 @@ class Constant:
 
     @property
     def sign(self) -> str:
-        """What stands between the name and the text."""
+        """What is between the name and the text."""
         return "<-" if self.named else "="
 
 
 @dataclass(frozen=True)
 class Cfg:
-    """What one configuration file says; names stand in the order of the file."""
+    """What one configuration file says; names are in the order of the file."""
 
     constants: Mapping[str, Constant] = field(default_factory=dict)
     invariants: tuple[str, ...] = ()

@@ -1,6 +1,6 @@
 """The page of a document, docs/<document>.md: what was shown, what not, and every finding in a few lines.
 
-Only the tables of its counterexamples come from evidence; each stands between two marks with a digest of its
+Only the tables of its counterexamples come from evidence; each is between two marks with a digest of its
 text and of the pins of its run. So the page must be what the registers give, around the tables that it holds.
 """
 

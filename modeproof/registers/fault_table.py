@@ -36,7 +36,7 @@ def check_faults(document: Document) -> Iterator[Problem]:
         for fall in fault.falls:
             run, known = runs.get(fall.run), properties.get(fall.property)
             if run and known and run.property != known.tla:
-                yield Problem(file, fault.id, f"{fall.run} does not show that {fall.property} falls")
+                yield Problem(file, fault.id, f"{fall.run} does not show that {fall.property} fails")
         checked = {name for run in fault.runs if run in runs for name in runs[run].properties}
         for name in fault.holds:
             if name in properties and properties[name].tla not in checked:

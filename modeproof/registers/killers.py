@@ -1,4 +1,4 @@
-"""What makes each property fall: spec/<document>/killers.toml, and the negatives that try a reading.
+"""What breaks each property: spec/<document>/killers.toml, and the negatives that try a reading.
 
 A property that no device could break says nothing. So each has a fault of a device's specification that makes
 it fall: a negative whose reading replaces one operator of a device, or one edit (`[[killer.PROPERTY]]`).
@@ -29,10 +29,10 @@ from modeproof.registers.typed import Entry, Name, RunId, Text, grouped, only_ke
 
 
 class Killer(Entry, frozen=True, kw_only=True):
-    """One edit of a device's specification, and the property that falls with it.
+    """One edit of a device's specification, and the property that it breaks.
 
     `run` gives the model and its bounds, where no entry of `[bounds]` has this name; `in` a module the text
-    `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong.
+    `old`, which is there once, becomes `new`. `slip` says what the programmer did wrong.
     """
 
     property: Name
@@ -63,7 +63,7 @@ class Killers:
 
 @dataclass(frozen=True)
 class Falls:
-    """How a property falls: the negatives and the edits, by name; or why it cannot."""
+    """What breaks a property: the negatives and the edits, by name; or why it cannot."""
 
     negatives: tuple[str, ...]
     edits: tuple[str, ...]
@@ -96,7 +96,7 @@ def load_killers(root: Path, document: str) -> Killers:
 
 
 def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
-    """For each property how it falls, in the order of the register. Raises Unjudged like `load_killers`."""
+    """For each property what breaks it, in the order of the register. Raises Unjudged like `load_killers`."""
     killers = load_killers(document.root, document.name)
     found: dict[str, Falls] = {}
     for prop in document.properties:
@@ -133,16 +133,16 @@ def _devices(document: Document, modules: Mapping[str, Module], root: str) -> tu
 
 
 def check_killers(document: Document, sources: Sources) -> list[Problem]:
-    """Every property without a fault that it falls with, and every row that is of no use or not judged."""
+    """Every property that no fault breaks, and every row that is of no use or not judged."""
     file = document.source("killers")
     killers = load_killers(document.root, document.name)
     problems: list[Problem] = []
     for name, falls in ways_to_fall(document, sources).items():
         if falls.kind == "nothing":
-            text = "falls with nothing: give it an edit of a device in killers.toml, or say why none can be"
+            text = "is broken by nothing: give it an edit of a device in killers.toml, or say why none can be"
             problems.append(Problem(document.source("properties"), name, text))
         if falls.reason and (falls.negatives or falls.edits):
-            text = f"is no property by construction: it falls with {[*falls.negatives, *falls.edits][0]}"
+            text = f"is no property by construction: it is broken by {[*falls.negatives, *falls.edits][0]}"
             problems.append(Problem(file, name, text))
     known = [prop.id for prop in document.properties]
     for name in killers.by_construction:
@@ -183,7 +183,7 @@ def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer
     module = own[killer.module]
     text = read_text(document.root, document.root / module.file)
     if text.count(killer.old) != 1:
-        raise Unjudged(f"{killer.old!r} stands {text.count(killer.old)} times in {module.file}, not once")
+        raise Unjudged(f"{killer.old!r} is in {module.file} {text.count(killer.old)} times, not once")
     if killer.old == killer.new:
         raise Unjudged("edits nothing")
     at = text.index(killer.old) + len(killer.old) - len(killer.old.lstrip())
@@ -199,7 +199,7 @@ def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer
 
 
 def run_of(document: Document, killers: Killers, killer: Killer) -> Run:
-    """The run that must show that the property falls: the declared one, which asks for this property alone.
+    """The run that must show that the property fails: the declared one, which asks for this property alone.
 
     Raises Unjudged: no such property or run; a run that is not of what was decided, or does not check it.
     """

@@ -83,7 +83,7 @@ def load_findings(root: Path, name: str) -> tuple[Finding, ...]:
 
 
 def _clauses(source: str, data: Table) -> Iterator[Clause]:
-    """The clauses; what those of a chapter have in common stands in [chapter.ID], by how their ids begin."""
+    """The clauses; what those of a chapter have in common is in [chapter.ID], by how their ids begin."""
     chapters = typed(dict[str, dict[str, str]], data.get("chapter", {}), f"{source}: [chapter]")
     for id, row in tables(source, {**data, DEFAULT: {}}, "clause").items():
         own = next((common for begin, common in chapters.items() if id.startswith(f"{begin}-")), {})

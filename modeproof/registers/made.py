@@ -1,6 +1,6 @@
 """The readings of a document, and the files of a run that is another run with a reading.
 
-A reading stands in a module <Module>AsPrinted, which extends <Module>: an operator called Op_Reading takes
+A reading is in a module <Module>AsPrinted, which extends <Module>: an operator called Op_Reading takes
 the place of the decided operator Op. What a reading replaces is derived from these names. The cfg of such a
 run is that of its base with `Op <- Op_Reading` among its constants; its root module extends the base's and
 the modules that hold the reading. Both are made below build/.
@@ -28,7 +28,7 @@ SUFFIX = "AsPrinted"
 _NAME = re.compile(r"(\w+)_([A-Z][A-Za-z0-9]*)")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _TEMPORAL = re.compile(r"\[\]\[|(?<!<)<>(?!>)|~>|!\w*Spec\b")
-"""What stands in a formula about more than one state; `[]` alone also divides the cases of CASE."""
+"""What is in a formula about more than one state; `[]` alone also divides the cases of CASE."""
 _NO_NAME = re.compile(r'"[^"\n]*"|\.\w+|\w+\s*\|->')
 """Strings, and the names of fields."""
 
@@ -42,7 +42,7 @@ class Replacement:
     operator: str
     module: str
     parameters: str
-    """As they stand after its name: `(i)`, or nothing."""
+    """As they are after its name: `(i)`, or nothing."""
 
 
 def replacements(modules: Mapping[str, Module]) -> tuple[Replacement, ...]:
@@ -130,7 +130,7 @@ def replacing(
         ]
         if not fitting:
             names = " and ".join(dict.fromkeys(replacement.module for replacement in own))
-            raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {module} cannot use")
+            raise Unjudged(f"{place}: the reading {reading} is in {names}, which {module} cannot use")
         for replacement in fitting:
             if fault := _fault(modules, replacement):
                 raise Unjudged(f"{place}: {modules[replacement.module].file}: {replacement.operator} {fault}")

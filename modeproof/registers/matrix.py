@@ -90,7 +90,7 @@ def _row(
 def orphans(
     document: Document, rows: Sequence[Row], cited: Sequence[Citation], sources: Sources
 ) -> list[Problem]:
-    """Everything that stands alone: clauses that nobody carries out, and work that no clause asks for."""
+    """Everything that is alone: clauses that nobody carries out, and work that no clause asks for."""
     problems = [] if rows else [Problem(document.source("clauses"), "", "the matrix has no row")]
     for clause, row in zip(document.clauses, rows, strict=True):
         problems += _clause_orphans(document, clause, row, cited)

@@ -93,14 +93,14 @@ def texts_of(document: Document, sources: Sources) -> dict[str, Texts]:
 
 
 def digest(text: str) -> str:
-    """The hash of a text, as it stands in the file."""
+    """The hash of a text, as it is in the file."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def repin(document: Document, sources: Sources, reason: str) -> list[str]:
     """Write the hashes of the present texts; one line for each that moved.
 
-    The reason stands beside each. Raises Unjudged when a property says nothing or the file cannot be
+    The reason is beside each. Raises Unjudged when a property says nothing or the file cannot be
     written.
     """
     for problem in _saying_nothing(document, sources):

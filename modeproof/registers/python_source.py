@@ -126,7 +126,7 @@ def scan_python(text: str, name: str, file: str) -> PythonModule:
 
 
 def _comments(text: str) -> dict[int, tuple[str, bool]]:
-    """Comments by line, each with whether it stands alone on its line."""
+    """Comments by line, each with whether it is alone on its line."""
     found: dict[int, tuple[str, bool]] = {}
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:

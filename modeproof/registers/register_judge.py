@@ -34,7 +34,7 @@ class Judgement:
     citations: int
     unresolved: int
     falls: Counter[str]
-    """How many properties fall with a negative, with an edit, or are true by construction."""
+    """How many properties are broken by a negative, by an edit, or are true by construction."""
 
     @property
     def as_expected(self) -> bool:

@@ -82,8 +82,8 @@ def summary(judgement: Judgement) -> str:
     }
     counts = ", ".join(f"{number} with {column}" for column, number in filled.items())
     words = {
-        "negative": "fall with a negative",
-        "edit": "with an edit",
+        "negative": "broken by a negative",
+        "edit": "by an edit",
         "by construction": "by construction",
         "nothing": "with nothing",
     }

@@ -57,7 +57,7 @@ class Replay(Entry, frozen=True, kw_only=True):
 
 class Top(Entry, frozen=True, kw_only=True):
     """One module that runs check. `next` is the step relation that finds out a step which was not recorded,
-    `wires` the record of all that stands on the wires, `inputs` what a device read in the step just executed.
+    `wires` the record of all that is on the wires, `inputs` what a device read in the step just executed.
 
     `columns` are those of a table: signals, vectors, variables; a device stands for its state.
     """

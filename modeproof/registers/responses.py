@@ -2,7 +2,7 @@
 
 In ms a row takes one longest cycle C until a call sees what happened, C for each further call, for each time
 that time and up to C more, and C until the last call ends: (calls + times + 1) C and the times. Inputs are
-read when a call begins, outputs stand when it ends.
+read when a call begins, outputs are there when it ends.
 """
 
 from __future__ import annotations

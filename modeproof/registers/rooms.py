@@ -137,7 +137,7 @@ def check_order(root: Path) -> list[Problem]:
         for name in sorted(names | said):
             height = _height(name) if name.split(".")[0] in tops else None
             if own is not None and height is not None and own < height:
-                what = f"imports {name}, which stands above it in the order of rooms"
+                what = f"imports {name}, which is above it in the order of rooms"
                 problems.append(Problem(file, "", what))
         if file not in BY_NAME:
             problems += [

@@ -209,7 +209,7 @@ class Assumption(Entry, frozen=True, kw_only=True):
 
 
 class Fall(Entry, frozen=True, kw_only=True):
-    """A property that falls under a class of faults: the run that shows it, and what it takes."""
+    """A property that fails under a class of faults: the run that shows it, and what it takes."""
 
     property: Name
     run: RunId
@@ -217,7 +217,7 @@ class Fall(Entry, frozen=True, kw_only=True):
 
 
 class Fault(Entry, frozen=True, kw_only=True):
-    """One class of faults from outside: what detects it, what holds, what falls, what nothing detects.
+    """One class of faults from outside: what detects it, what holds, what fails, what nothing detects.
 
     `kind` is the class of the communication error list, or of wires.
     """
@@ -235,7 +235,7 @@ class Fault(Entry, frozen=True, kw_only=True):
 
 
 class Response(Entry, frozen=True, kw_only=True):
-    """How soon a device answers what stands on its wires; times are ms.
+    """How soon a device answers what is on its wires; times are ms.
 
     `calls` counts calls of the device, the one that sees it first included; `times` are parameters of the
     device, and how often each is waited for besides, up to the first call that finds it over. The theorem

@@ -48,7 +48,7 @@ class Definition:
 
     @property
     def parameters(self) -> str:
-        """Its parameters as they stand after its name, in parentheses; "" where it has none."""
+        """Its parameters as they are after its name, in parentheses; "" where it has none."""
         return " ".join(self.body.partition("==")[0].partition(self.name)[2].split())
 
 
@@ -100,7 +100,7 @@ def closure(modules: Mapping[str, Module], name: str, instances: bool = True) ->
 
 @cache
 def scan(text: str, name: str, file: str) -> Module:
-    """Read one module; what stands before its header or after its end is not part of it."""
+    """Read one module; what is before its header or after its end is not part of it."""
     code, bare, comments = split(text)
     header = MODULE.search(bare)
     body_start = header.end() if header else 0

@@ -95,7 +95,7 @@ def only_keys(source: str, data: Table, known: Iterable[str]) -> None:
 def tables(source: str, data: Table, key: str) -> dict[str, Table]:
     """The rows of a file ([key.ID], or a list [[key]]), each by its id, with what they leave out.
 
-    That stands in [default.key]. Raises Unjudged: no row, an id twice.
+    That is in [default.key]. Raises Unjudged: no row, an id twice.
     """
     rows = data.get(key, [])
     if isinstance(rows, dict) and all(isinstance(row, dict) for row in rows.values()):
@@ -171,7 +171,7 @@ def _plainly(kind: Any, value: Any, text: str) -> str:
 
 
 def _at(kind: Any, values: Any, path: str) -> tuple[Any, Any, str]:
-    """What stands at a path such as `graph.states` or `lanes[...]`: its type, its value, and where it is.
+    """What is at a path such as `graph.states` or `lanes[...]`: its type, its value, and where it is.
 
     msgspec does not say which entry of a list or table is wrong: it is the first that does not fit its type.
     """

@@ -23,7 +23,7 @@ def rests_on(sources: Sources, document: Document) -> Mapping[str, tuple[tuple[s
 
 
 def needed_by(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
-    """By assumption about the machine: the requirements that fall in a run without it, or rest on it."""
+    """By assumption about the machine: the requirements that fail in a run without it, or rest on it."""
     runs = {run.id: run for run in document.runs}
     proved = rests_on(sources, document)
     found = {}
@@ -81,6 +81,6 @@ def falling(document: Document, finding: Finding) -> tuple[Run, ...]:
 
 
 def hazard_of(document: Document, runs: tuple[Run, ...]) -> str:
-    """What a person suffers when the first requirement that falls in these runs falls."""
+    """What a person suffers when the first requirement that fails in these runs fails."""
     hazards = {prop.tla: prop.hazard for prop in document.properties}
     return next((hazards[run.property] for run in runs if run.property in hazards), "")

@@ -41,7 +41,7 @@ FIRST = FILED[0]
 LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""
 SHOWN = 4
-"""So many troubles of one part and kind stand on the first screen; the part has all."""
+"""So many troubles of one part and kind are on the first screen; the part has all."""
 UNMADE = "unmade"
 """The key of a part's data that says why there is nothing else."""
 ODD = (Unjudged, LookupError, TypeError, ValueError, AttributeError, AssertionError, jinja2.TemplateError)

@@ -116,7 +116,7 @@ class Claim:
     def word(self) -> str:
         """The verdict of the run whose verdict counts.
 
-        Where another property of the same run fell first, nothing is known of this one: INCONCLUSIVE.
+        Where another property of the same run failed first, nothing is known of this one: INCONCLUSIVE.
         """
         if self.shown is None or self.shown.evidence is None:
             return NOT_THERE if self.shown is None else self.shown.word

@@ -39,11 +39,11 @@ def number(value: Any) -> str:
 
 
 def css_string(text: str) -> Markup:
-    """A text as a string of a style sheet; whatever is not plain stands as its code."""
+    """A text as a string of a style sheet; whatever is not plain becomes its code."""
     return Markup('"' + re.sub(r"[^\w .,:/()-]", lambda found: f"\\{ord(found.group()):x} ", text) + '"')
 
 
 def script_json(value: Mapping[str, Any]) -> Markup:
-    """JSON that cannot end the script element in which it stands."""
+    """JSON that cannot end the script element in which it is."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     return Markup(text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"))

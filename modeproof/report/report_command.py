@@ -37,7 +37,7 @@ def add_parser(commands: Any) -> None:
         "--review",
         type=Path,
         metavar="FILE",
-        help="an answered review sheet: its answers stand in the report",
+        help="an answered review sheet: its answers go into the report",
     )
     parser.add_argument(
         "--out",

@@ -129,7 +129,7 @@ def read_answers(path: Path, rows: Iterable[str]) -> Mapping[str, Answer]:
     """The answers of a file by their rows; `rows` are those of the sheet.
 
     Raises Unjudged, in one line with the line of the file, for what is no review sheet, for a row that the
-    sheet does not have or that stands twice, and for an answer that is none of the three.
+    sheet does not have or that is there twice, and for an answer that is none of the three.
     """
     try:
         if path.stat().st_size > MOST_BYTES:
@@ -154,7 +154,7 @@ def read_answers(path: Path, rows: Iterable[str]) -> Mapping[str, Answer]:
                     f"{place}: this report has no row {row['row'][:80]!r}; {suggestion(row['row'], known)}"
                 )
             if row["row"] in found:
-                raise Unjudged(f"{place}: the row {row['row']!r} stands twice")
+                raise Unjudged(f"{place}: the row {row['row']!r} is there twice")
             word = row["answer"].strip().lower()
             if word not in ("", *ANSWERS):
                 raise Unjudged(

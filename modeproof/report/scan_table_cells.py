@@ -1,4 +1,4 @@
-"""What stands in a cell of a scan table: words in hex and by their meaning, outputs by their letters."""
+"""What is in a cell of a scan table: words in hex and by their meaning, outputs by their letters."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class Cells:
         return str(value)
 
     def word(self, signal: str, word: int) -> str:
-        """A word in hex and what it means where it stands; zero alone."""
+        """A word in hex and what it means where it is; zero alone."""
         if word == 0:
             return "0"
         if signal not in self._meaning:

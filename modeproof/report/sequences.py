@@ -118,7 +118,7 @@ def _sequence(
 
 
 def _story(read: VectorFile, case: Mapping[str, Any], device: Device, codes: Mapping[str, Codes]) -> Story:
-    """The case with what stands on each signal in each scan; row 0 is the device after the reset."""
+    """The case with what is on each signal in each scan; row 0 is the device after the reset."""
     header = read.header
     graph = header["graphs"][case["graph"]]
     values: dict[str, str] = {device.id: _state(device, graph["views"][graph["initial"]])}
@@ -174,7 +174,7 @@ def _state(device: Device, view: str) -> str:
 
 
 def _value(codes: Mapping[str, Codes], name: str, kind: str, value: Any) -> str:
-    """One value of a signal: a word in hex with what it means where it stands, all else as `_text`."""
+    """One value of a signal: a word in hex with what it means where it is, all else as `_text`."""
     text = _text(value)
     if kind != "word":
         return text

@@ -1,4 +1,4 @@
-"""How things stand, in a form that two reports can be compared by: verdicts, counts, mutants, pins, tools."""
+"""How things are, in a form that two reports can be compared by: verdicts, counts, mutants, pins, tools."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Story:
-    """`constant` says what is the same in every row and stands in no column; `full` whether it has wires."""
+    """`constant` says what is the same in every row and is in no column; `full` whether it has wires."""
 
     lanes: tuple[Lane, ...]
     columns: tuple[str, ...]

@@ -37,7 +37,7 @@ _APART = frozenset(
 )
 """Elements whose text is left as it is: links within links, headings, names, drawings."""
 FIGURE = 'class="figure"'
-"""What stands in the tag of a figure: it is a button by itself, and no link can be in it."""
+"""What is in the tag of a figure: it is a button by itself, and no link can be in it."""
 
 
 @dataclass(frozen=True)

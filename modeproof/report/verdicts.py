@@ -54,7 +54,7 @@ def status_of(record: Record) -> int:
 def verdict_on_machine(result: Mapping[str, Any]) -> tuple[str, str]:
     """The verdict on a machine from those on its properties, and why it is not PROVED.
 
-    SURVIVED: all are PROVED, and it is not seen that each can fall.
+    SURVIVED: all are PROVED, and it is not seen that each can fail.
     """
     words = [row["verdict"] for row in result["verdicts"]]
     bad = [f"{row['id']}: {row['verdict']}: {row['how']}" for row in result["verdicts"] if row["how"]]

@@ -125,7 +125,7 @@ def read_map(
     for line, row in _rows(path):
         symbol, place = row["symbol"], f"{path.name}: line {line}: {row['symbol'] or 'no symbol'}"
         if symbol in places:
-            raise Unjudged(f"{place}: stands twice")
+            raise Unjudged(f"{place}: is there twice")
         signal = inputs.get(symbol) or outputs.get(symbol) or parameters.get(symbol)
         if signal is None and symbol not in CONTROLS:
             raise Unjudged(f"{place}: unknown symbol; the target has {_listed(inputs, outputs, parameters)}")

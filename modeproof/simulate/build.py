@@ -79,5 +79,5 @@ def _json(value: Any) -> str:
 
 
 def _in_script(text: str) -> str:
-    """Text that cannot end the script that it stands in."""
+    """Text that cannot end the script that it is in."""
     return re.sub(r"<(?=/script|!--|script)", r"\\u003c", text, flags=re.IGNORECASE)

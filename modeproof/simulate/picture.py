@@ -64,7 +64,7 @@ def svg(place: Path, id: str) -> str:
 
 
 def png(place: Path, page: Path, id: str, step: int) -> bytes:
-    """The drawing of a story after so many steps, as it stands in the page.
+    """The drawing of a story after so many steps, as it is in the page.
 
     Raises Unjudged where there is no such story or step, no Chromium, or no playwright.
     """

@@ -52,7 +52,7 @@ def one_line(text: str) -> str:
 
 
 def cut(lines: Sequence[str], place: Place) -> str:
-    """The text at a place, its later lines as they stand in the file."""
+    """The text at a place, its later lines as they are in the file."""
     chosen = list(lines[place.first_line - 1 : place.last_line])
     chosen[-1] = chosen[-1][: place.last_column]
     chosen[0] = chosen[0][place.first_column - 1 :]

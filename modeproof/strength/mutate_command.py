@@ -103,7 +103,7 @@ def _mutate(args: argparse.Namespace) -> int:
 
 
 def _killers(place: Path, kind: str, args: argparse.Namespace) -> int:
-    """Judge the edit of each property that is to make it fall."""
+    """Judge the edit of each property that is to break it."""
     if kind != "spec":
         raise Unjudged("--killers speaks of the specification: modeproof mutate spec --killers")
     chosen = chosen_documents(place, [args.document] if args.document else None)

@@ -81,7 +81,7 @@ def mutants(tree: ParseTree, module: str, rule: Rule, untouched: frozenset[str])
 
 @dataclass(frozen=True)
 class _Where:
-    """Where an expression stands: in the initial predicate; as a part of a conjunction or disjunction; as a
+    """Where an expression is: in the initial predicate; as a part of a conjunction or disjunction; as a
     conjunct of an action.
     """
 
@@ -384,7 +384,7 @@ class _Editor:
 
 
 def _successors(lists: Sequence[Sequence[str]]) -> dict[str, list[str]]:
-    """For each entry those that come after it, cyclically, in the lists where it stands."""
+    """For each entry those that come after it, cyclically, in the lists where it is."""
     after: dict[str, list[str]] = {}
     for names in lists:
         for name, new in zip(names, (*names[1:], names[0]), strict=True):

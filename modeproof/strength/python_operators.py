@@ -305,7 +305,7 @@ class _Function:
         yield "condition negated", test, f"(not ({self.module.source(test)}))"
 
     def _everything(self, root: ast.AST) -> Iterator[Found]:
-        """Every edit of an expression, or of what stands in a statement, in the order of the text."""
+        """Every edit of an expression, or of what is in a statement, in the order of the text."""
         for node in self._walk(root):
             yield from self._of_node(node)
 

@@ -1,4 +1,4 @@
-"""What spec/<document>/contracts.toml says of a device, as it stands in the header of its vector files.
+"""What spec/<document>/contracts.toml says of a device, as it is in the header of its vector files.
 
     [contract.lamp]                     by device
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml

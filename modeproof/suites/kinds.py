@@ -58,7 +58,7 @@ SUITES = {
         plan=telling,
         guarantees=(
             "a program with at most n states (k = 0 more than the graph) that treats all inputs of a column "
-            "alike and passes is equal to the graph, over all columns; n stands under `complete` of each "
+            "alike and passes is equal to the graph, over all columns; n is under `complete` of each "
             "graph; a column is a set of inputs that take the graph by the same step to the same state from "
             "whatever state, time included; `modeproof vectors lint` proves this from the file alone"
         ),

@@ -1,6 +1,6 @@
 """Suite `sequences`: the document's own diagrams, walked as they are drawn.
 
-spec/<document>/sequences.toml says how the scans of each diagram go: what stands on the inputs, and which
+spec/<document>/sequences.toml says how the scans of each diagram go: what is on the inputs, and which
 step of the specification each scan takes. What the outputs must be, it does not say: that is the graph's.
 
     [tables]                            words and names by number

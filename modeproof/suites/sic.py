@@ -270,7 +270,7 @@ class _Search:
 
 @dataclass
 class _Walk:
-    """A case while it is made; `pattern` are the fields of classes as they stand, `last` the last event."""
+    """A case while it is made; `pattern` are the fields of classes as they are, `last` the last event."""
 
     state: int
     pattern: Pattern = ()

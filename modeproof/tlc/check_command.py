@@ -102,7 +102,7 @@ def _show_trace(place: Path, checked: Checked, args: argparse.Namespace, tools: 
 
 
 def on_the_wires(place: Path, checked: Checked, tools: Toolchain) -> list[dict[str, str]]:
-    """What stands on the wires in each state of a counterexample: words in hex, with what they mean there.
+    """What is on the wires in each state of a counterexample: words in hex, with what they mean there.
 
     Raises Unjudged when TLC cannot follow the counterexample once more.
     """

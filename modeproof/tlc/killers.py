@@ -1,4 +1,4 @@
-"""Judges by TLC whether a property falls with the edit that killers.toml has for it."""
+"""Judges by TLC whether a property fails with the edit that killers.toml has for it."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def judge_killers(
 ) -> Collection[str]:
     """Judge the edits of a document whose stamps are not of the present text, or `everything`; stamp them.
 
-    The names of those with which their property does not fall, which are not stamped. Raises Unjudged when
+    The names of those with which their property does not fail, which are not stamped. Raises Unjudged when
     some cannot be judged: the others have been judged and stamped by then.
     """
     document = load_document(place, name)
@@ -91,7 +91,7 @@ def judge_killers(
                 say(f"{name}: {edit}: cannot be judged: {error.message}")
                 continue
             judged += 1
-            say(f"{name}: {edit}: {'falls' if found.verdict == VIOLATED else 'does not fall'}")
+            say(f"{name}: {edit}: {'fails' if found.verdict == VIOLATED else 'does not fail'}")
             if found.verdict == VIOLATED:
                 new[edit] = now
             else:

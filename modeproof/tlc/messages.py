@@ -300,7 +300,7 @@ def format_trace(
     """A counterexample to read: each step with the variables that it changed (all of them in the first
     state).
 
-    `wires` gives for each state what stands on the wires; it takes the place of variables of the same name.
+    `wires` gives for each state what is on the wires; it takes the place of variables of the same name.
     """
     lines: list[str] = []
     before: dict[str, str] = {}

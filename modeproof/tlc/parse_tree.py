@@ -125,12 +125,12 @@ class ParseTree:
 
 
 def conjuncts(node: Node) -> tuple[Node, ...]:
-    """The parts of a conjunction, nested ones taken apart; a node that is none stands alone."""
+    """The parts of a conjunction, nested ones taken apart; a node that is none is alone."""
     return _parts(node, AND)
 
 
 def disjuncts(node: Node) -> tuple[Node, ...]:
-    """The parts of a disjunction, nested ones taken apart; a node that is none stands alone."""
+    """The parts of a disjunction, nested ones taken apart; a node that is none is alone."""
     return _parts(node, OR)
 
 

@@ -181,7 +181,7 @@ def _rows(data: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _set(row: Any, move: Move) -> None:
-    """Write a pin into its row. Counts stand in one list, where none of them has a key of its own."""
+    """Write a pin into its row. Counts are in one list, where none of them has a key of its own."""
     target = row[move.table] if move.table else row
     key, new = move.key, move.new
     if not move.table and key in COUNTS and not any(name in target for name in COUNTS):

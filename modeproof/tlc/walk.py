@@ -1,4 +1,4 @@
-"""Walks TLC through recorded counterexamples once more, to say what stood on the wires in every state, and
+"""Walks TLC through recorded counterexamples once more, to say what was on the wires in every state, and
 what a device of the decided specification does with the same inputs.
 
 A counterexample holds variables; the words on the wires are operators of the state. One module is generated

@@ -44,7 +44,7 @@ class Effect:
 
 
 class _Scope:
-    """The parameters of the definition in which a text stands, and what they are further out."""
+    """The parameters of the definition in which a text is, and what they are further out."""
 
     def __init__(
         self, made: list[str], params: Sequence[str], args: Sequence[str], outer: _Scope | None
@@ -212,7 +212,7 @@ class Guards:
                 )
 
     def _laid_out(self, node: Node) -> str:
-        """The text of a node in the columns where it stands, for columns can matter."""
+        """The text of a node in the columns where it is, for columns can matter."""
         return " " * (node.place.first_column - 1) + self.tree.text(node.place, joined=False)
 
     def _denied(self, node: Node) -> tuple[Node, Definition] | None:

@@ -232,7 +232,7 @@ class Kept(Stored):
             for row in self.record["pairs"]:
                 pair = row["reference"], tuple(row["program"])
                 if pair in product.nodes or pair[0] not in product.binding.reference.controls:
-                    raise self.refuse(f"pair {shown(pair)} stands twice, or is none of the target")
+                    raise self.refuse(f"pair {shown(pair)} is there twice, or is none of the target")
                 if len(pair[1]) != len(product.control) or not all(type(value) is int for value in pair[1]):
                     raise self.refuse(f"pair {shown(pair)} has not the control variables of the program")
                 relations = [self._relation(product, found) for found in row["relations"]]

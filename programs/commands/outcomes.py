@@ -76,7 +76,7 @@ def spots(
 
 
 def demand_of_equality(found: Verdict) -> Demand:
-    """Equality with the target, and what stands against it."""
+    """Equality with the target, and what speaks against it."""
     binding = found.product.binding
     target = binding.reference.device.name
     sentence = f"{binding.unit.name} has the outputs of {target} in every scan from power-up."
@@ -161,7 +161,7 @@ def profile_of(binding: Binding) -> str:
 
 
 def demand_of_property(cell: Cell, found: Found, questions: Questions) -> Demand:
-    """A property, and what stands against it."""
+    """A property, and what speaks against it."""
     asked = found.asked
     rows = [row for row in questions.rows if row["id"] == asked.id]
     at = questions.place(rows[0]) if rows else None

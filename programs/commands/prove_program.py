@@ -15,13 +15,14 @@ from typing import Any
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
 from modeproof.kit.kit_command import quoted
+from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates import certificate_folder as folder
 from programs.certificates import equality_certificate as certificate
 from programs.certificates.recheck import recheck
 from programs.commands.outcomes import outcome_of_equality
-from programs.commands.results import Case, junit_of, vector_of, write_record
+from programs.commands.results import vector_of, write_record
 from programs.equality.binding import read_binding
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown

@@ -12,12 +12,13 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_text
+from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates import property_certificate
 from programs.certificates.certificate_folder import digest, tools
 from programs.commands.outcomes import outcome_of_properties
-from programs.commands.results import Case, junit_of, write_record
+from programs.commands.results import write_record
 from programs.language.tool_differences import assumed
 from programs.properties.property_file import read_questions
 from programs.properties.property_verdicts import Found, Judgement

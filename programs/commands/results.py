@@ -1,15 +1,11 @@
-"""What `prove-program` leaves behind: a difference as a vector file, JUnit XML, and the record of a run."""
+"""What `prove-program` leaves behind: a difference as a vector file, and the record of a run."""
 
 from __future__ import annotations
 
 import json
-import re
-from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
 from modeproof.ground.places import build
 from modeproof.kit.files import write_json
@@ -19,9 +15,6 @@ from modeproof.registers import Signal
 from programs.equality.binding import Binding
 from programs.equality.replay import Difference
 
-UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 cannot hold."""
-
 
 def write_record(place: Path, record: Mapping[str, Any], also: Path | None) -> None:
     """Write the record of a run below `build`, and to a file that was asked for. Raises Unjudged."""
@@ -30,53 +23,6 @@ def write_record(place: Path, record: Mapping[str, Any], also: Path | None) -> N
     write_json(path, record)
     if also is not None:
         write_json(also, record)
-
-
-@dataclass(frozen=True)
-class Case:
-    """A test case of JUnit: its name, the word and the lines of its verdict, and what else is said of it."""
-
-    name: str
-    word: str
-    text: str
-    properties: Mapping[str, str]
-
-    @property
-    def element(self) -> str:
-        """What JUnit calls it: REFUTED is a failure, what is neither shown nor refuted an error."""
-        return {"PROVED": "system-out", "REFUTED": "failure"}.get(self.word, "error")
-
-
-def junit_of(
-    suite: str, cases: Sequence[Case], seconds: float, command: str = "modeproof prove-program"
-) -> str:
-    """Verdicts as JUnit XML. seconds: of CPU, for all of them."""
-    kinds = Counter(case.element for case in cases)
-    attributes = {
-        "name": _xml(suite),
-        "tests": str(len(cases)),
-        "failures": str(kinds["failure"]),
-        "errors": str(kinds["error"]),
-        "skipped": "0",
-        "time": str(seconds),
-    }
-    root = ElementTree.Element("testsuites", name=command)
-    of = ElementTree.SubElement(root, "testsuite", attributes)
-    for case in cases:
-        told = {"classname": _xml(suite), "name": _xml(case.name)}
-        row = ElementTree.SubElement(of, "testcase", told)
-        properties = ElementTree.SubElement(row, "properties")
-        for name, value in {"verdict": case.word, **case.properties}.items():
-            ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
-        text = _xml(case.text)
-        message = {} if case.element == "system-out" else {"message": text.partition("\n")[0]}
-        ElementTree.SubElement(row, case.element, message).text = text
-    ElementTree.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
-
-
-def _xml(text: str) -> str:
-    return UNPRINTABLE.sub("?", text)
 
 
 # ---------------------------------------------------------------- a difference as a vector

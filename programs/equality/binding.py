@@ -59,7 +59,7 @@ class Binding:
             if name not in self.reference.signals("outputs"):
                 raise Unjudged(f"binding: {name} is no output, so it cannot be left out")
             if name in self.names:
-                raise Unjudged(f"binding: {name} stands under [names] and under left_out")
+                raise Unjudged(f"binding: {name} is under [names] and under left_out")
         if not self.compared:
             raise Unjudged("binding: no output is compared")
         try:

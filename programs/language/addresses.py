@@ -33,7 +33,7 @@ class Addresses:
         if (size == 1) != (bit is not None) or int(bit or 0) > 7:
             raise place.refuse(f"AT {text}: a bit of a byte is %{area}X{number}.0 to %{area}X{number}.7")
         if not isinstance(kind, Scalar) or bits_of(kind) != size:
-            raise place.refuse(f"AT {text}: a variable of {size} bits stands there, and not {shown(kind)}")
+            raise place.refuse(f"AT {text}: a variable of {size} bits belongs there, and not {shown(kind)}")
         bytewise, wordwise = (8 * number + int(bit or 0), 16 * number + int(bit or 0))
         starts = {"bytes": bytewise, "elements": size * number if size > 1 else bytewise, "words": wordwise}
         for counted, start in starts.items():

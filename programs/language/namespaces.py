@@ -1,6 +1,6 @@
 """Namespaces: every unit keeps its plain name, for no two units that are read together have the same one.
 
-So a namespace never chooses between units. It only says whether a name may be used where it stands.
+So a namespace never chooses between units. It only says whether a name may be used where it is.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Actions of a POU: parts of its body that stand apart and are called by their names, without arguments.
+"""Actions of a POU: parts of its body that are apart and are called by their names, without arguments.
 
 A call is replaced by the body of the action. An action that is not called does nothing.
 """

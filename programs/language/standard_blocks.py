@@ -29,7 +29,7 @@ BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
 }
 """The standard blocks: inputs in their order, and outputs.
 
-A counter stands still at the lowest and the highest value of its type, that of CV and PV.
+A counter stays at the lowest and the highest value of its type, that of CV and PV.
 """
 _PARAMETERS = {
     **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),

@@ -105,7 +105,7 @@ def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str])
             if instance not in below:
                 below.append(instance)
         if any(blocks_in(variable.type)) and variable.section != "var":
-            raise variable.place.refuse(f"{variable.name}: an instance of a block stands in VAR here")
+            raise variable.place.refuse(f"{variable.name}: an instance of a block belongs in VAR here")
     for inner in below:
         yield from _reached(source, inner, (*above, unit.name), seen)
 

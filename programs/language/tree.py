@@ -21,7 +21,7 @@ class Place:
     line: int
 
     def refuse(self, text: str) -> Unjudged:
-        """The refusal of what stands there, in one line."""
+        """The refusal of what is there, in one line."""
         return Unjudged(f"{self.file}:{self.line}: {text}")
 
 
@@ -152,7 +152,7 @@ SCALARS: Final[Mapping[str, Scalar]] = {
 
 @dataclass(frozen=True)
 class Literal:
-    """A value that stands in the source; `type` is None for a bare number, which takes that of its place."""
+    """A value that is in the source; `type` is None for a bare number, which takes that of its place."""
 
     value: bool | int
     type: Scalar | None

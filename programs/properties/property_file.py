@@ -61,14 +61,14 @@ class Questions:
     file: str
     text: str
     tables: Mapping[str, Any] = field(default_factory=dict)
-    """What else the file may have, as it stands there."""
+    """What else the file may have, as it is there."""
 
     def asked(self, cell: Cell) -> list[Asked]:
         """The properties over this program. Raises Unjudged with file, line and cause."""
         return [_asked(row, cell, self.place(row)) for row in self.rows]
 
     def place(self, row: Mapping[str, Any]) -> Place:
-        """Where a property stands."""
+        """Where a property is."""
         wanted = re.compile(rf"\s*id\s*=\s*[\"']{re.escape(row['id'])}[\"']")
         lines = enumerate(self.text.splitlines(), 1)
         found = [number for number, line in lines if wanted.match(line)]
@@ -77,7 +77,7 @@ class Questions:
 
 @dataclass(frozen=True)
 class Beside:
-    """What a file of properties has besides: keys of a property, tables, scan times that stand elsewhere."""
+    """What a file of properties has besides: keys of a property, tables, scan times that are elsewhere."""
 
     keys: Mapping[str, type] = field(default_factory=dict)
     tables: tuple[str, ...] = ()
@@ -207,7 +207,7 @@ def expression(text: str, cell: Cell, place: Place) -> Expression:
 
 
 def parsed(text: str, place: Place) -> Expression:
-    """An expression in Structured Text; every part of it stands at `place`. Raises Unjudged there."""
+    """An expression in Structured Text; every part of it is at `place`. Raises Unjudged there."""
     try:
         units = read_text(
             f"FUNCTION_BLOCK q VAR_OUTPUT q : BOOL; END_VAR q := {text}\n; END_FUNCTION_BLOCK", place.file

@@ -109,7 +109,7 @@ def _types(paths: Sequence[Path]) -> dict[Path, KnownTypes]:
                 found[path] = types_in(text, str(path), apart)
             for name in found.get(path, ()) if number == 0 else ():
                 if owner.setdefault(name, path) != path:
-                    raise Unjudged(f"{path}: the type {name} stands in {owner[name]} too; give one of them")
+                    raise Unjudged(f"{path}: the type {name} is in {owner[name]} too; give one of them")
         if found == before:
             break
     return found

@@ -1,6 +1,6 @@
 """Runs a program with plain values, scan by scan: what a PLC would do. It knows nothing of solvers.
 
-The clock stands still within a scan. TON, TOF and TP measure from the scan of the edge, in which ET is 0.
+The clock does not move within a scan. TON, TOF and TP measure from the scan of the edge, in which ET is 0.
 Integers and times that leave their range stop the run (`Overflow`), or wrap if the run says so.
 """
 

@@ -196,7 +196,7 @@ def standard_call(block: str, path: str, env: Env) -> None:
 
 
 def _count(block: str, path: str, env: Env) -> None:
-    """One call of a counter; CV stands still at the limits of its type."""
+    """One call of a counter; CV stays at the limits of its type."""
     number = BLOCKS[block][1]["CV"]
     before, wanted = env[f"{path}.CV"], env[f"{path}.PV"]
     edges = []

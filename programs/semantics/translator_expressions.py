@@ -64,7 +64,7 @@ Places = list[tuple[z3.BoolRef, str]]
 
 @dataclass(frozen=True)
 class Context:
-    """Where a body stands: the translator, the types of its unit, and the path above its variables."""
+    """Where a body is: the translator, the types of its unit, and the path above its variables."""
 
     translator: Obliged
     types: Types

@@ -8,6 +8,9 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import yaml
 
 from modeproof.ground.places import TREE
 
@@ -49,17 +52,23 @@ class Installed:
         return done
 
 
+def recipe(path: str) -> Any:
+    """What a recipe in YAML holds."""
+    return yaml.safe_load((TREE / path).read_text(encoding="utf-8"))
+
+
 def install(place: Path) -> Installed:
-    """Fill the wheelhouse, and install from it alone."""
+    """Fill the wheelhouse, and install from it alone, by the step of the action."""
     fill = [sys.executable, "-m", "modeproof.lane.wheelhouse", str(WHEELS)]
     filled = subprocess.run(fill, cwd=TREE, capture_output=True, text=True, check=False)
     assert filled.returncode == 0, filled.stderr
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", place / "venv"], check=True)
-    pip = [sys.executable, "-m", "pip", "--isolated", "--python", str(place / "venv"), "--quiet"]
-    subprocess.run([*pip, "install", "--no-index", "--find-links", WHEELS, "modeproof"], check=True)
+    subprocess.run([sys.executable, "-m", "venv", place / "venv"], check=True)
     (place / "bin").mkdir()
     for name in COREUTILS:
         found = shutil.which(name)
         assert found is not None
         (place / "bin" / name).symlink_to(found)
-    return Installed(place)
+    made = Installed(place)
+    _, step, _ = recipe("action.yml")["runs"]["steps"]
+    made.run(place, "sh", "-c", step["run"], WHEELS=str(WHEELS), PIP_NO_INDEX="1")
+    return made

@@ -40,6 +40,9 @@ def test_commands_options_and_values_are_offered(tmp_path: Path) -> None:
     assert offered("modeproof ma", tmp_path) == ["machine", "map"]
     assert offered("modeproof machine --pr", tmp_path) == ["--properties", "--program"]
     assert offered("modeproof conform fplc --relation ", tmp_path) == ["exact", "settled", "monitor"]
+    assert offered("modeproof prove-program x.st --target sf_e", tmp_path) == ["sf_edm", "sf_enable_switch"]
+    assert offered("modeproof explain EDMF-04", tmp_path) == ["EDMF-04"]
+    assert "README.md" in offered("modeproof prove-program REA", tmp_path)
 
 
 @pytest.mark.parametrize("shell", HOW)

@@ -53,14 +53,6 @@ def test_the_commands_of_a_step_give_its_verdict(step: str, place: Path) -> None
             assert line == "..." or line in said.splitlines(), line
 
 
-def test_the_commands_of_the_job_are_those_of_the_steps() -> None:
-    (job,) = fenced(STEPS["7"], "yaml")
-    commands = [line.replace("plc/", "examples/st/") for line in re.findall(r"- run: (.*)", job)]
-    shown = {line for step in EXPECTED for text in fenced(STEPS[step], "sh") for line in text.splitlines()}
-    assert commands[0] == "make venv" and len(commands) == 3
-    assert set(commands[1:]) <= shown
-
-
 def test_the_forms_of_properties_are_those_that_are_read() -> None:
     from programs.properties.property_file import FORMS
 

@@ -219,7 +219,7 @@ def test_evidence_of_it_is_as_expected(folder: Path) -> None:
     assert (record["verdict"], record["reason"]) == ("PROVED", "")
     assert record["inputs"].keys() >= {f"spec/latch/{name}.toml" for name in ("wiring", "safety", "use")}
     assert machine_line(record).endswith(
-        "1 of 1 fall with an edit; no run of TLC; latch is our own design, no document"
+        "1 of 1 are broken by an edit; no run of TLC; latch is our own design, no document"
     )
 
 
@@ -275,7 +275,7 @@ def test_an_edit_with_which_a_property_falls_is_found(
     if recorded:
         outcome(folder, basis_of(machine_of(folder)))
     assert main(["machine", "--killers", "--quiet"]) == 0
-    assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
+    assert "1 of 1 properties are broken by an edit" in capsys.readouterr().out
     assert ('new = "Stop"' in path.read_text("utf-8")) or not recorded
     assert "[[killer.closed]]" in path.read_text("utf-8")
 
@@ -287,8 +287,8 @@ def test_a_property_that_nothing_breaks_is_named(
     (folder / "safety.toml").write_text(asked(("said", 'always = "Key OR NOT Key"')), "utf-8")
     assert main(["machine", "--killers", "--quiet"]) == 1
     said = capsys.readouterr().out
-    assert "said: no edit of the wiring is known with which it falls" in said
-    assert "0 of 1 properties fall with an edit" in said
+    assert "said: no edit of the wiring is known that breaks it" in said
+    assert "0 of 1 properties are broken by an edit" in said
 
 
 MOTOR = WIRING + 'S_Motor = { is = "Start OR running.Q1", to = "drive", why = "a second one" }\n'

@@ -54,7 +54,7 @@ def test_a_run_that_shows_something_else_is_found(document: Document) -> None:
     falls = [fall for one in document.faults for fall in one.falls]
     first, other = falls[0], next(fall for fall in falls if fall.property != falls[0].property)
     wrong = Fall(property=first.property, run=other.run, needs="nothing")
-    assert f"{other.run} does not show that {first.property} falls" in texts(
+    assert f"{other.run} does not show that {first.property} fails" in texts(
         changed(document, falls=(wrong,))
     )
 

@@ -80,7 +80,7 @@ def test_a_run_by_hand_has_the_cfg_of_its_file(tmp_path: Path) -> None:
         ('"Sinks"', "Stay_Sinks", "Stray_Sinks", "Stray_Sinks replaces nothing: no module"),
         ('"Sinks"', "Stay_Sinks", "LOCAL Stay_Sinks", "Stay_Sinks is LOCAL"),
         ('"Sinks"', "count' = -1", "Stay", "Stay_Sinks uses Stay, which it replaces"),
-        ('"Sinks"', "EXTENDS Toy", "EXTENDS Other", "stands in ToyAsPrinted, which Toy cannot use"),
+        ('"Sinks"', "EXTENDS Toy", "EXTENDS Other", "is in ToyAsPrinted, which Toy cannot use"),
     ],
 )
 def test_a_reading_that_cannot_be_used_is_refused(

@@ -148,7 +148,7 @@ def test_an_answer_to_an_earlier_text_does_not_count(root: Path) -> None:
         ("accept", "perhaps", "'perhaps' is no answer; write accept, reject or remark"),
         ("accept,", "remark,", "a remark without words"),
         ("box E-01", "box E-77", "this report has no row 'box E-77'"),
-        ("box E-01", "box E-02", "the row 'box E-02' stands twice"),
+        ("box E-01", "box E-02", "the row 'box E-02' is there twice"),
         ("row,text", "line,text", "no review sheet of `modeproof report`: without the columns row"),
         ("A. Reader,", "A. Reader,,", "not as many cells as the first line has"),
         ("accept", '"accept', "no CSV"),

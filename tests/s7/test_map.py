@@ -69,7 +69,7 @@ def test_a_map_that_fits_is_read(tmp_path: Path) -> None:
     [
         ("CODE,MW1,WORD", "CODE,MW1,WORD\nMORE,MW9,WORD", "line 4: MORE: unknown symbol"),
         ("CODE,MW1,WORD\n", "", "missing: CODE"),
-        ("CODE,MW1,WORD", "CODE,MW1,WORD\nCODE,MW9,WORD", "line 4: CODE: stands twice"),
+        ("CODE,MW1,WORD", "CODE,MW1,WORD\nCODE,MW9,WORD", "line 4: CODE: is there twice"),
         ("CODE,MW1,WORD", "CODE,MW1,INT", "type INT; a word needs WORD"),
         ("CODE,MW1,WORD", "CODE,MB1,WORD", "MB1 is no address of a WORD"),
         ("CODE,MW1,WORD", "CODE,M1.0,WORD", "M1.0 is no address of a WORD"),

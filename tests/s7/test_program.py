@@ -372,7 +372,7 @@ def test_the_command_judges_the_statement_list_in_a_simulated_plc(suite: Suite) 
         for relation in (SETTLED, EXACT):
             done = conform(suite, awl / "fplc.map.csv", address, "--relation", relation)
             assert done.returncode == 0, done.stdout + done.stderr
-            assert done.stdout.splitlines()[-1].startswith(f"CONFORMS({relation}, journey;")
+            assert done.stdout.splitlines()[-1].startswith(f"CONFORMS({relation}, journey, not published;")
         wrong = suite.path.with_name("wrong.csv")
         text = (awl / "fplc.map.csv").read_text(encoding="utf-8").replace("MW07,MW7", "MW07,MW11")
         wrong.write_text(text, encoding="utf-8")

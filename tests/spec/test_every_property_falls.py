@@ -164,7 +164,7 @@ def test_weakened_and_pinned_again_it_is_still_refused(tree: Path) -> None:
     said: list[str] = []
     assert judge_killers(tree, "edm", find_toolchain(), False, said.append) == ["IdleShowsNothing"]
     assert said == [
-        "edm: IdleShowsNothing: does not fall",
+        "edm: IdleShowsNothing: does not fail",
         f"edm: {len(KILLERS['edm'].edits)} edits, 1 judged now, 1 break nothing",
     ]
     assert "IdleShowsNothing: has not been judged" in problems(tree)[0]
@@ -187,7 +187,7 @@ def test_verify_names_a_property_that_became_true(tree: Path) -> None:
 HEAD = "[[killer.IdleShowsNothing]]\n"
 ROW = re.compile(r"\n\[\[killer\.IdleShowsNothing\]\]\n(?:.+\n)+")
 WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
-    "falls with nothing": (ROW, ""),
+    "is broken by nothing": (ROW, ""),
     "was judged on another text": ('state = "Idle" -> 1', 'state = "Idle" -> 2'),
     "unknown property": (HEAD, "[[killer.IdleShowsAll]]\n"),
     "unknown run": (HEAD, f'{HEAD}run = "MC_SF_EDM_nowhere"\n'),
@@ -203,7 +203,7 @@ WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
         re.compile(r"\Z"),
         '\n[bounds.spare]\nrun = "MC_SF_EDM_arbitrary"\n',
     ),
-    "falls with MissedPickUpIsAnError": (
+    "it is broken by MissedPickUpIsAnError": (
         re.compile(r"\Z"),
         '\n[by_construction]\nIdleShowsNothing = "none"\n',
     ),
@@ -271,7 +271,7 @@ def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> 
 def test_a_negative_of_more_than_one_change_is_no_killer(row: str, tree: Path) -> None:
     change(tree, "spec/edm/runs.toml", 'reading = "StopBeforeTimeout"', row)
     assert problems(tree) == [
-        "spec/edm/properties.toml: MissedPickUpIsAnError: falls with nothing: "
+        "spec/edm/properties.toml: MissedPickUpIsAnError: is broken by nothing: "
         "give it an edit of a device in killers.toml, or say why none can be"
     ]
 
@@ -284,7 +284,7 @@ def test_an_edit_that_cannot_be_judged_hides_no_other(tree: Path) -> None:
     said: list[str] = []
     with pytest.raises(Unjudged, match="not judged: IdleShowsNothing, ResetNeverStarts"):
         judge_killers(tree, "edm", find_toolchain(), False, said.append)
-    assert "edm: CodeTellsTheRow: falls" in said
+    assert "edm: CodeTellsTheRow: fails" in said
     assert [line for line in problems(tree) if "CodeTellsTheRow" in line] == []
 
 

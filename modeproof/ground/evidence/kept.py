@@ -1,4 +1,4 @@
-"""Whether a result of an earlier day still stands: what it rests on is the same, and nobody touched it.
+"""Whether a result of an earlier day is still valid: what it rests on is the same, and nobody touched it.
 
 It is judged again if it was not as expected; if a file, a tool or a module that judged it means something
 else now; if its evidence, or a file that it made, is not what was written.
@@ -40,7 +40,7 @@ class Rests:
 
 
 def why_again(place: Path, record: Mapping[str, Any], rests: Rests, alone: bool = False) -> str:
-    """Why a result must be judged again; empty where it stands. Raises Unjudged as `own_tools` does.
+    """Why a result must be judged again; empty where it is still valid. Raises Unjudged as `own_tools` does.
 
     alone: whatever judged it.
     """

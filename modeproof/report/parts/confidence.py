@@ -71,7 +71,7 @@ def _problem(sources: Sources, problem: ToolProblem, troubles: list[Trouble]) ->
     conditions = [judged(sources, each) for each in problem.holds]
     for each in conditions:
         if each.good is False:
-            what = f"{problem.id}, {problem.title}: the judgement does not stand: {each.says}: {each.found}"
+            what = f"{problem.id}, {problem.title}: the judgement is not true here: {each.says}: {each.found}"
             troubles.append(Trouble(DIFFERS, ID, what, f"look at {SOURCE}"))
     return {
         "id": problem.id,

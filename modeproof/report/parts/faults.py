@@ -1,4 +1,4 @@
-"""The table of faults from outside: what detects each, what holds, what falls, what is not modelled."""
+"""The table of faults from outside: what detects each, what holds, what fails, what is not modelled."""
 
 from __future__ import annotations
 

@@ -19,8 +19,8 @@ ID = "functions"
 def part(sources: Sources) -> Part:
     """One row a safety function, by document.
 
-    A requirement is a safety function where the wires of a device show it (it stands in contracts.toml), or
-    where it falls when an assumption about the machine is not true. All others are in the annex.
+    A requirement is a safety function where the wires of a device show it (it is in contracts.toml), or
+    where it fails when an assumption about the machine is not true. All others are in the annex.
     """
     troubles: list[Trouble] = []
     rows = {

@@ -136,7 +136,7 @@ def _agreement(sources: Sources, document: Document) -> dict[str, Any] | None:
 
 
 def _agrees(row: Mapping[str, Any]) -> bool | None:
-    """Whether both say the same; None where only one of them says anything, and why stands beside it."""
+    """Whether both say the same; None where only one of them says anything, and why is beside it."""
     if not row["theorem"]:
         return None
     return (row["tlc"], row["proved"]) == ("HOLDS", "PROVED")

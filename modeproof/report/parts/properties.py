@@ -187,7 +187,7 @@ def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, 
 
 
 def _falls(sources: Sources, document: Document, prop: Property, troubles: list[Trouble]) -> dict[str, Any]:
-    """The negatives and the edits with which it falls, or why nothing breaks it."""
+    """The negatives and the edits that break it, or why nothing breaks it."""
     every, killers, stamps = _killing(sources, document)
     falls, pinned = every[prop.id], load_pins(document).killers
     edits = [
@@ -216,7 +216,7 @@ def _killing(
 
 
 def fallen(sources: Sources, document: Document) -> tuple[int, int]:
-    """How many properties fall with a fault that was judged on this text, of those that one can break."""
+    """How many properties are broken by a fault that was judged on this text, of those that one can break."""
     every, _, stamps = _killing(sources, document)
     pinned = load_pins(document).killers
     can = [falls for falls in every.values() if falls.kind != "by construction"]

@@ -1,4 +1,4 @@
-"""The readings that were tried: what falls when a device follows another reading than the decided one."""
+"""The readings that were tried: what fails when a device follows another reading than the decided one."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ from modeproof.report.sources import Sources
 MOST = 150
 """So many rows at most: where there would be more, those of the least important groups are put together."""
 ALONE = ("safety", "hazard", "assumption")
-"""The groups whose entries stand alone as long as any others can be put together."""
+"""The groups whose entries are alone as long as any others can be put together."""
 
 
 def part(sources: Sources) -> Part:

@@ -17,7 +17,7 @@ from modeproof.report.sources import Figure, Sources
 from modeproof.report.verdicts import ASIDE
 
 ASSUMPTIONS, FINDINGS = 3, 5
-"""So many of each stand on the first page."""
+"""So many of each are on the first page."""
 FOLDER = "build/evidence/"
 ENGINES = {"tlc": "TLC", "z3": "Z3", "cvc5": "cvc5", "python": "Python"}
 """The tools whose word the conclusions are, as the page names them."""
@@ -71,7 +71,7 @@ def part(sources: Sources) -> Part:
 
 
 def _tools(sources: Sources) -> list[dict[str, Any]]:
-    """Each engine with its versions, as the evidence names them; caches and the like stand in the annex."""
+    """Each engine with its versions, as the evidence names them; caches and the like are in the annex."""
     found: dict[str, set[str]] = {}
     for piece in sources.everything():
         for tool, entry in piece.record["tools"].items():

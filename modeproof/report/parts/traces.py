@@ -74,7 +74,7 @@ def _document(
         remedy = f"modeproof verify --document {document.name}"
         troubles.append(Trouble(HOLE, ID, f"{what}: {', '.join(cut)}", remedy, tuple(cut)))
     if without:
-        what = f"{document.name}: {len(without)} traces show variables, not what stands on the wires"
+        what = f"{document.name}: {len(without)} traces show variables, not what is on the wires"
         remedy = f"modeproof walks --document {document.name}"
         troubles.append(Trouble(NOTE, ID, what, remedy, tuple(without)))
     return {

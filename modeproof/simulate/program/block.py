@@ -83,7 +83,7 @@ class Block:
                 self.differs = f"call {self.scans}: {output} is {self.wrote[output]}, the log has {logged}"
 
     def show(self) -> dict[str, Any]:
-        """What stands where: texts, what is lit, the step."""
+        """What is where: texts, what is lit, the step."""
         lamps = {name: value for name, value in self.wrote.items() if isinstance(value, bool)}
         words = {name: str(value) for name, value in self.wrote.items() if not isinstance(value, bool)}
         state = self.device.control()

@@ -147,7 +147,7 @@ class Page:
             _line(about, "In: ", f"{fault['title']}. {fault['model']}")
             _line(about, "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
             for fall in fault["falls"]:
-                _line(about, f"{fall['property']} falls: ", fall["needs"])
+                _line(about, f"{fall['property']} fails: ", fall["needs"])
             _line(about, "Not detected: ", fault["not_detected"])
         if not rows:
             _line(about, "", NOTHING)

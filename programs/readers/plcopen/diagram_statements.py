@@ -242,7 +242,7 @@ class Diagram:
         self.write_out(node)
 
     def write_out(self, node: Node) -> None:
-        """Variables that stand directly at the outputs of a block."""
+        """Variables that are directly at the outputs of a block."""
         for out in node.outs:
             for target in out.targets:
                 value = self.of_block(node, node, out)
@@ -282,7 +282,7 @@ class Diagram:
         return found
 
     def in_order(self, node: Node, given: list[tuple[str, Expression]]) -> list[tuple[str, Expression]]:
-        """Inputs IN1, IN2 .. by their numbers; without names as they stand."""
+        """Inputs IN1, IN2 .. by their numbers; without names as they are."""
         if not any(name for name, _ in given):
             return given
         numbered = {}

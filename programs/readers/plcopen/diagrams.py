@@ -157,7 +157,7 @@ def read_nodes(body: Element, parse: Parse) -> dict[str, Node]:
             raise element.place.refuse(f"<{element.name}> is not supported in {body.name}")
         node = _node(element, parse, network)
         if node.id in found:
-            raise element.place.refuse(f"localId {node.id} stands twice")
+            raise element.place.refuse(f"localId {node.id} is there twice")
         found[node.id] = node
     if len(found) > MOST:
         raise body.place.refuse(f"{len(found):,} elements; a body has at most {MOST:,}")
@@ -271,7 +271,7 @@ def _block_pins(element: Element, parse: Parse) -> tuple[list[Pin], list[Out]]:
     for names in ([pin.name for pin in pins], [out.name for out in outs]):
         for name in names:
             if names.count(name) > 1:
-                raise element.place.refuse(f"pin {name or 'without a name'} stands twice")
+                raise element.place.refuse(f"pin {name or 'without a name'} is there twice")
     return pins, outs
 
 

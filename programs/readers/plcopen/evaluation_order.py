@@ -122,7 +122,7 @@ class Order:
         places: dict[int, str] = {}
         for key, value in given.items():
             if value in places:
-                raise self.nodes[key].place.refuse(f"executionOrderId {value} stands twice")
+                raise self.nodes[key].place.refuse(f"executionOrderId {value} is there twice")
             places[value] = key
         return given
 

@@ -1,6 +1,6 @@
 """PLCopen XML (TC6 2.0, 2.01) into the language of `tree`: declarations, ST bodies, FBD and LD bodies.
 
-Declarations and ST bodies are handed to the reader of Structured Text, line by line where they stand in the
+Declarations and ST bodies are handed to the reader of Structured Text, line by line where they are in the
 XML. A diagram becomes one statement or more for each of its elements, in the order of `networks`; what
 comes out of a gate or a contact is a temporary variable. Whatever is not known here is refused.
 """
@@ -143,7 +143,7 @@ def _identifier(element: Element, attribute: str) -> str:
 
 
 def _variables(pou: Element) -> Iterator[tuple[Element, Element]]:
-    """Each declared variable with the group in which it stands."""
+    """Each declared variable with the group in which it is."""
     for interface in pou.all("interface"):
         for group in interface.children:
             for variable in group.children if group.name in SECTIONS else ():

@@ -67,7 +67,7 @@ class State:
     begins: bool | None = True
     """The next logic operation begins anew (/FC is 0)."""
     before: Expression | None = None
-    """What stands before an O without an operand (OR)."""
+    """What is before an O without an operand (OR)."""
     open: list[tuple[str, State]] = field(default_factory=list)
     assigned: frozenset[Access] = frozenset()
 

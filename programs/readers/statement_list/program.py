@@ -136,9 +136,9 @@ def _signals(path: Path) -> tuple[list[Signal], list[Cleared]]:
         if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
             raise place.refuse(f"{name!r} is no name")
         if name.upper() in {other.name.upper() for other in found}:
-            raise place.refuse(f"{name} stands twice")
+            raise place.refuse(f"{name} is there twice")
         if access in {other.access for other in found}:
-            raise place.refuse(f"{name}: {address} stands twice")
+            raise place.refuse(f"{name}: {address} is there twice")
         found.append(Signal(name, access, SCALARS[kind]))
     return found, cleared
 

@@ -84,7 +84,7 @@ class Instructions(Pieces):
             targets.append(self.steps[index])
         after = self.steps[index + 1 :][:1]
         if not after or after[0].op != "label" or after[0].label != step.label:
-            raise step.place.refuse("JL: its label must stand right after its list of jumps (JU)")
+            raise step.place.refuse("JL: its label must come right after its list of jumps (JU)")
         if self.alive:
             number = self.kept(self.fitted(self.state.first, BYTE, step.place), BYTE, step.place)
             other: Expression = Literal(True, BOOL, step.place)

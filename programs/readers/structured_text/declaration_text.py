@@ -1,7 +1,7 @@
 """What the grammar cannot read in declarations: a pass over the text that keeps every line where it is.
 
 Initial values of arrays and structures, and lists of names in a structure, are taken out of the
-text and kept by the place where they stood. What is not asked for again is refused.
+text and kept by the place where they were. What is not asked for again is refused.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ def named(text: str, place: Place) -> list[tuple[str, str]]:
 
 
 def _split(text: str) -> list[str]:
-    """What stands between the commas that are in no bracket."""
+    """What is between the commas that are in no bracket."""
     found, depth, last = [], 0, 0
     for n, char in enumerate(text):
         depth += (char in "([") - (char in ")]")

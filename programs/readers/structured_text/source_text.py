@@ -55,7 +55,7 @@ class Using:
 
 
 def prepared(text: str, file: str) -> tuple[str, list[Using]]:
-    """The text for the grammar, and what stood behind USING. Raises Unjudged with file and line."""
+    """The text for the grammar, and what was behind USING. Raises Unjudged with file and line."""
     line, in_types = 1, False
     parts: list[str] = []
     using: list[Using] = []

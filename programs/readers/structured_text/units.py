@@ -81,7 +81,7 @@ def _parsed(text: str, file: str, types: KnownTypes) -> tuple[_Reader, Any]:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
         raise Place(file, fault.start_point[0] + 1).refuse(
-            f"{fault.type!r} is missing here, or what stands here is not Structured Text"
+            f"{fault.type!r} is missing here, or what is here is not Structured Text"
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
@@ -91,7 +91,7 @@ def _parsed(text: str, file: str, types: KnownTypes) -> tuple[_Reader, Any]:
 def _advice(shown: str) -> str:
     if shown.upper().startswith(("WORD (", "BYTE (", "DWORD (")):
         return "; named values of a bit string are not supported: declare them as CONSTANT"
-    return "; an address stands in VAR alone (AT %IX0.0): give the variable a name" * shown.startswith("%")
+    return "; an address belongs in VAR alone (AT %IX0.0): give the variable a name" * shown.startswith("%")
 
 
 def _faults(node: Any) -> Iterator[Any]:

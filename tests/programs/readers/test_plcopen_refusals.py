@@ -122,10 +122,10 @@ BODIES = {
     "a return": (GOOD + '<return localId="7"/>', "<return> is not supported in FBD"),
     "an element of a vendor": (GOOD + '<vendorElement localId="7"/>', "only a network's title is known"),
     "an unknown attribute": (A + writing(5, "q", 1, 'negatedIn="true"'), "negatedIn of <outVariable>"),
-    "an id that stands twice": (GOOD + writing(5, "r", 1), "localId 5 stands twice"),
+    "an id that stands twice": (GOOD + writing(5, "r", 1), "localId 5 is there twice"),
     "an order that stands twice": (
         A + writing(5, "q", 1, order(3)) + writing(6, "r", 1, order(3)),
-        "executionOrderId 3 stands twice",
+        "executionOrderId 3 is there twice",
     ),
     "an order that is no number": (A + writing(5, "q", 1, 'executionOrderId="x"'), "is no whole number"),
     "two sources of an input": (

@@ -100,7 +100,7 @@ def test_a_type_may_stand_in_another_file(order: int, tmp_path: Path) -> None:
 
 def test_a_type_in_two_files_is_refused(tmp_path: Path) -> None:
     texts = {"b.st": USER, **TYPES, "other.st": "TYPE Colour : (Green, Red); END_TYPE\n"}
-    with pytest.raises(Unjudged, match=r"other\.st: the type COLOUR stands in .*colour\.st too"):
+    with pytest.raises(Unjudged, match=r"other\.st: the type COLOUR is in .*colour\.st too"):
         read_sources([written(tmp_path, name, text) for name, text in texts.items()])
 
 

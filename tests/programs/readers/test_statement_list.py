@@ -402,10 +402,10 @@ MAPS = {
         "symbol,address,type\nx,IW2,DINT\n",
         "p.map.csv:2: x: DINT does not have the 16 bits of IW2",
     ),
-    "a name twice": ("symbol,address,type\nx,IW2,WORD\nX,IW4,WORD\n", "p.map.csv:3: X stands twice"),
+    "a name twice": ("symbol,address,type\nx,IW2,WORD\nX,IW4,WORD\n", "p.map.csv:3: X is there twice"),
     "an address twice": (
         "symbol,address,type\nx,IW2,WORD\ny,IW2,WORD\n",
-        "p.map.csv:3: y: IW2 stands twice",
+        "p.map.csv:3: y: IW2 is there twice",
     ),
     "a name that is none": ("symbol,address,type\na b,IW2,WORD\n", "p.map.csv:2: 'a b' is no name"),
     "a part of other memory": (

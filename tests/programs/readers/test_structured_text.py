@@ -67,8 +67,8 @@ REFUSED = {
         "+ of INT and UINT: compilers differ",
     ),
     "an input given twice": ("VAR t : TON; END_VAR t(IN := TRUE, in := FALSE);", "IN of TON is given twice"),
-    "a timer for one scan": ("VAR_TEMP t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
-    "a timer of another": ("VAR_INPUT t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
+    "a timer for one scan": ("VAR_TEMP t : TON; END_VAR y := 1;", "t: an instance of a block belongs in VAR"),
+    "a timer of another": ("VAR_INPUT t : TON; END_VAR y := 1;", "t: an instance of a block belongs in VAR"),
     "too many first values": (
         "VAR a : ARRAY [0..3] OF INT := [999999999(1)]; END_VAR y := 1;",
         "999999999 times: 1 to 1,000 are possible",
