@@ -116,13 +116,13 @@ class Judging:
         """What a judgement of an entry is about now."""
         row = entry.row
         said: list[str] = []
-        names = [path for _, path in row.paths()]
+        files = {path: basis.digest(self.folder / path) for _, path in row.paths()}
         if isinstance(row, Program) and row.inline is not None:
             said = [binding_text(row.inline)]
         if isinstance(row, Adapter):
             said = [] if row.files else [f"judged each time {time.time_ns()}"]
-            names += [word for word in split_command(row.command) if self._program(word) is not None]
-        files = {name: basis.digest(self._program(name) or self.folder / name) for name in names}
+            programs = {word: self._program(word) for word in split_command(row.command)}
+            files |= {word: basis.digest(path) for word, path in programs.items() if path is not None}
         return Basis(row.words(str), said, files)
 
     def _program(self, word: str) -> Path | None:
@@ -136,11 +136,11 @@ class Judging:
     def again(self, entry: Listed) -> str:
         """The command that judges an entry alone, from where this one runs."""
         row = entry.row
-        shown = os.path.relpath
         if isinstance(row, Program) and row.inline is not None and row.inline.unfinished:
             return f"modeproof judge {entry.name}"
-        binding = shown(binding_path(entry)) if isinstance(row, Program) and row.inline is not None else None
-        words = row.words(lambda path: Path(shown(self.folder / path)).as_posix(), binding)
+        inline = isinstance(row, Program) and row.inline is not None
+        binding = from_here(binding_path(entry)) if inline else None
+        words = row.words(lambda path: from_here(self.folder / path), binding)
         return " ".join(map(quoted, ["modeproof", *words]))
 
     def _one(self, entry: Listed) -> Outcome:
@@ -215,6 +215,14 @@ class Judging:
         target = getattr(row, "target", None) or getattr(row, "own", None) or ""
         subject = ", ".join(path for _, path in row.paths()[:1])
         return outcome.unjudged(command, subject, target, self.again(entry), reason)
+
+
+def from_here(path: Path) -> str:
+    """A path as it is written from the current folder; whole where that is on another drive."""
+    try:
+        return Path(os.path.relpath(path)).as_posix()
+    except ValueError:
+        return path.as_posix()
 
 
 def binding_path(entry: Listed) -> Path:
