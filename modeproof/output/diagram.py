@@ -39,12 +39,15 @@ STYLE = """
 .td .x{stroke:#b42318;stroke-width:2.4;fill:none}.td .xt{fill:#b42318;font-weight:700}
 .td .e{stroke:#1f2328;stroke-width:1.6;fill:none;stroke-dasharray:5 3}
 .td .frame{stroke:#b42318;stroke-width:1.6;fill:#b42318;fill-opacity:.07}
-@media (prefers-color-scheme:dark){.td text{fill:#e6edf3}.td .s{fill:#9da7b3}.td .bg{fill:#0d1117}
-.td .grid{stroke:#3d444d}.td .w,.td .bus,.td .e{stroke:#e6edf3}.td .x,.td .frame{stroke:#ff7b72}
-.td .xt{fill:#ff7b72}.td .frame{fill:#ff7b72}}
 @media print{.td text{fill:#000}.td .s{fill:#333}.td .bg{fill:#fff}.td .grid{stroke:#bbb}
 .td .w,.td .bus,.td .e,.td .x,.td .frame{stroke:#000}.td .xt{fill:#000}.td .frame{fill:#000}}
 """
+DARK = """
+@media screen and (prefers-color-scheme:dark){.td text{fill:#e6edf3}.td .s{fill:#9da7b3}.td .bg{fill:#0d1117}
+.td .grid{stroke:#3d444d}.td .w,.td .bus,.td .e{stroke:#e6edf3}.td .x,.td .frame{stroke:#ff7b72}
+.td .xt{fill:#ff7b72}.td .frame{fill:#ff7b72}}
+"""
+"""Of a picture alone; a page has its own colours."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,7 @@ def drawn(example: Counterexample, title: str, about: str, alone: bool = False) 
         parts += _band(columns, rows, band, left, width, y)
         y += HEAD + ROW * len(rows) + GAP
     whole = left + width * max(map(len, bands)) + 12
-    ground = [element("style", Markup(STYLE))] if alone else []
+    ground = [element("style", Markup(STYLE + DARK))] if alone else []
     ground += [element("rect", class_="bg", width=whole, height=y)]
     return element(
         "svg",

@@ -287,7 +287,8 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
     yield (
         "## Counterexamples worth reading\n\n"
         "A scan is one cycle of a program: it reads inputs, decides, and sets outputs. Each row is one\n"
-        "scan, or one step of somebody else, with what it read and what stands afterwards; **bold** is new.\n"
+        "scan, or one step of somebody else, with what it read and what is there afterwards; **bold** is new."
+        "\n"
         "`dt` is the time since the scan before, in ticks of the model.\n"
     )
     for finding, trace in found:

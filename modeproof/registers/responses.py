@@ -173,7 +173,7 @@ def example_of(document: Document) -> str:
 
 EXPLAINED = (
     "These times follow from the steps of the devices. C is the longest time from the beginning of one "
-    "call of a device to that of the next. A call reads its inputs when it begins, and its outputs stand "
+    "call of a device to that of the next. A call reads its inputs when it begins, and its outputs are set "
     "when it ends, before the next. So an answer in one call takes two cycles: one until a call sees what"
     " happened, and one until it ends. t is the longest transfer from one device to the next, with input "
     "filters; what lies before the first device comes on top. Each bound is typed once, in the register: "

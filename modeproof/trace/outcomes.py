@@ -70,8 +70,10 @@ def outcome_of(
         cited = [id for ids in cites for id in ids]
         rules = rules_of(cited, target.document)
         for taken in why.taken[:1]:
+            above = f"{row.device}." if target.system else ""  # as `_wire` names them
             expected = {
-                name: target.forms.to_wire(outputs[name], value) for name, value in taken.expected.items()
+                f"{above}{name}": target.forms.to_wire(outputs[name], value)
+                for name, value in taken.expected.items()
             }
     unseen = [
         f"{name}: {signal} was not observed"
@@ -152,9 +154,8 @@ def _demand(
     problems = []
     if line:
         row = log.rows[accepted]
-        wrong = [
-            name for name, value in expected.items() if name in row.outputs and row.outputs[name] != value
-        ]
+        _, shown = _wire(target, row)
+        wrong = [name for name, value in expected.items() if name in shown and shown[name] != value]
         problems.append(
             Problem(
                 rule=Rule(id=args.target, kind="log", sentence=sentence),

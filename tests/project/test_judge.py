@@ -97,20 +97,28 @@ def test_what_could_not_be_judged_is_never_kept(place: Path, asked: list[list[st
     assert record.word == "UNJUDGED" and record.status == 2
 
 
+@pytest.mark.parametrize("until_the_end", [True, False])
 def test_a_file_that_is_written_while_it_is_judged_is_not_kept(
-    place: Path, asked: list[list[str]], judge: Judge, monkeypatch: pytest.MonkeyPatch
+    place: Path,
+    asked: list[list[str]],
+    judge: Judge,
+    monkeypatch: pytest.MonkeyPatch,
+    until_the_end: bool,
 ) -> None:
     run = Judging._run
 
     def saved(judging: Judging, words: Sequence[str]) -> tuple[int, str]:
+        if not until_the_end:
+            write(place, plc__contactors_st=WRONG)
         found = run(judging, words)
-        write(place, plc__contactors_st=BLOCK + "\n")
+        write(place, plc__contactors_st=WRONG if until_the_end else BLOCK)
         return found
 
-    monkeypatch.setattr(Judging, "_run", saved)
-    judge()
-    judge()
-    assert len(asked) == 2
+    with monkeypatch.context() as patch:
+        patch.setattr(Judging, "_run", saved)
+        judge()
+    write(place, plc__contactors_st=BLOCK)
+    assert judge()[0] == 0 and len(asked) == 2
 
 
 def test_a_status_that_is_not_that_of_the_record_is_no_verdict(

@@ -34,7 +34,10 @@ def test_the_first_wrong_scan_is_that_of_tlc(
     name: str, line: int, output: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     log, record = LOGS / f"{name}.jsonl", tmp_path / "out.json"
-    assert main(["trace", "fplc", str(log), "--json", str(record)]) == 1
+    told = tmp_path / "told.md"
+    assert main(["trace", "fplc", str(log), "--json", str(record), "--markdown", str(told)]) == 1
+    [name, expected, logged] = output.split()
+    assert f"Wrong: {name} is {logged}, expected {expected} |" in told.read_text()
     out = capsys.readouterr().out
     assert f"line {line} of the log" in out and output in out
     found = json.loads(record.read_text())["trace"]
