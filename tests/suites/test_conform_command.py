@@ -236,4 +236,7 @@ def test_without_tlc_published_suites_still_judge(
     for suite in (["--suite", "tour"], ["--suite", "brief", "--suite", "words"]):
         assert main([*given, *suite]) == 2
         said = capsys.readouterr().err
-        assert f"the suite {suite[-1]} has to be made, and " in said and "--suite NAME of brief, refusals, sic" in said
+        assert (
+            f"the suite {suite[-1]} has to be made, and " in said
+            and "--suite NAME of brief, refusals, sic" in said
+        )
