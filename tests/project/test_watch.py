@@ -73,7 +73,7 @@ def test_the_status_is_that_of_what_was_found_last(place: Path, judge: Judge, sa
     assert said[0].startswith("contactors PROVED, ")
 
 
-def test_a_file_that_is_saved_without_a_change_is_not_judged(
+def test_a_file_saved_without_a_change_is_not_judged(
     place: Path, asked: list[list[str]], judge: Judge, said: list[str]
 ) -> None:
     def save() -> None:
@@ -84,7 +84,7 @@ def test_a_file_that_is_saved_without_a_change_is_not_judged(
     assert status == 0 and len(asked) == 1 and said[0].startswith("nothing to judge again, ")
 
 
-def test_a_project_file_that_becomes_wrong_is_one_line_until_it_is_mended(
+def test_a_project_file_that_is_wrong_is_one_line_until_mended(
     place: Path, asked: list[list[str]], judge: Judge, said: list[str]
 ) -> None:
     def spoil() -> None:
@@ -98,7 +98,7 @@ def test_a_project_file_that_becomes_wrong_is_one_line_until_it_is_mended(
     assert len(asked) == 1
 
 
-def test_a_file_that_is_gone_is_said_and_read_again_when_it_is_back(
+def test_a_lost_file_is_said_and_read_when_it_is_back(
     place: Path, judge: Judge, said: list[str]
 ) -> None:
     file = place / "plc/contactors.st"
