@@ -153,7 +153,7 @@ class Judging:
                 seconds = round(time.monotonic() - started, 3)
                 found = msgspec.structs.replace(found, started=day(began), seconds=seconds)
                 outcome.write(basis.record_path(entry.name), found)
-            elif self.basis(entry) == before:  # else it was written to while it was judged
+            elif self.basis(entry) == before and before.is_what_was_read(found):
                 basis.keep(entry.name, before, found)
             return found
         finally:
