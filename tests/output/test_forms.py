@@ -102,7 +102,7 @@ def test_many_scans_go_on_below() -> None:
     assert names == ["Key", "Lamp"]
 
 
-def test_of_many_signals_those_that_change_or_are_wrong_are_drawn() -> None:
+def test_of_many_signals_only_what_changes_is_drawn() -> None:
     inputs = {f"In{n}": True for n in range(20)}
     scans = [
         Scan(dt_ms=1, inputs={**inputs, "Key": key}, given={"Lamp": False, "Bell": key}) for key in (0, 1)
