@@ -79,3 +79,13 @@ def test_what_is_not_installed_is_one_line(installed: Installed, tmp_path: Path)
     done = installed.run(tmp_path, "modeproof", "check", "WIT_SF_EDM", status=2)
     [line] = done.stderr.splitlines()
     assert "the TLC jar is missing" in line and 'pip install "modeproof[tlc]"' in line
+
+
+def test_vectors_and_logs_are_judged_without_java(installed: Installed, tmp_path: Path) -> None:
+    installed.run(tmp_path, "modeproof", "example", "fplc_good.csv")
+    said = installed.run(tmp_path, "modeproof", "trace", "fplc", "fplc_good.csv").stdout
+    assert "CONFORMS(exact, fplc_good.csv; 8 of 8 outputs compared" in said
+    given = ["modeproof", "conform", "sf_edm", "--builtin", "refimpl"]
+    assert "CONFORMS(exact, brief" in installed.run(tmp_path, *given, "--suite", "brief").stdout
+    [line] = installed.run(tmp_path, *given, "--suite", "tour", status=2).stderr.splitlines()
+    assert "the suite tour has to be made" in line and 'pip install "modeproof[tlc]"' in line

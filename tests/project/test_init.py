@@ -140,6 +140,6 @@ def test_which_names_are_alike(ours: str, yours: str, alike: bool) -> None:
     assert (likeness(ours, yours) > 0) == alike
 
 
-def test_two_names_that_fit_as_well_are_left_to_the_user() -> None:
+def test_two_names_that_fit_alike_are_left_to_the_user() -> None:
     found, doubtful = matched(["Reset", "Error"], ["Error", "xReset", "yReset"], lambda ours, yours: True)
     assert found == {"Error": "Error"} and doubtful == {"Reset": ["xReset", "yReset"]}

@@ -68,7 +68,7 @@ def test_another_version_of_the_tool_judges_again(
     assert "judged by another version of modeproof" in judge()[2] and len(asked) == 2
 
 
-def test_one_entry_that_is_not_as_expected_decides_and_is_kept(
+def test_one_entry_not_as_expected_decides_and_is_kept(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     more = "".join(TOML.partition("\n\n")[2].replace("contactors", name) for name in "bc")
@@ -98,7 +98,7 @@ def test_what_could_not_be_judged_is_never_kept(place: Path, asked: list[list[st
 
 
 @pytest.mark.parametrize("until_the_end", [True, False])
-def test_a_file_that_is_written_while_it_is_judged_is_not_kept(
+def test_a_file_written_while_it_is_judged_is_not_kept(
     place: Path,
     asked: list[list[str]],
     judge: Judge,
@@ -121,7 +121,7 @@ def test_a_file_that_is_written_while_it_is_judged_is_not_kept(
     assert judge()[0] == 0 and len(asked) == 2
 
 
-def test_a_status_that_is_not_that_of_the_record_is_no_verdict(
+def test_a_status_unlike_that_of_the_record_is_no_verdict(
     place: Path, asked: list[list[str]], judge: Judge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = Judging._run
@@ -144,7 +144,7 @@ def test_an_inline_binding_is_written_for_the_command(
     assert judge()[0] == 0 and len(asked) == 2
 
 
-def test_a_name_that_is_still_empty_is_unjudged_with_its_line(
+def test_a_name_still_empty_is_unjudged_with_its_line(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     names = '[program.contactors.binding.names]\nS_EDM1 = ""\nS_EDM2 = "B"\n'
@@ -157,7 +157,7 @@ def test_a_name_that_is_still_empty_is_unjudged_with_its_line(
     )
 
 
-def test_an_adapter_is_judged_each_time_unless_its_files_are_named(
+def test_an_adapter_is_judged_again_unless_its_files_are_named(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     text = 'version = 1\n[adapter.own]\ntarget = "sf_edm"\ncommand = "python a.py"\n'
@@ -196,7 +196,7 @@ def test_no_project_file_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert not list(tmp_path.iterdir())
 
 
-def test_a_file_that_is_gone_and_an_unknown_target_are_said_at_once(place: Path, judge: Judge) -> None:
+def test_a_lost_file_and_an_unknown_target_are_said_together(place: Path, judge: Judge) -> None:
     more = '[log.a]\nfile = "logs/a.csv"\ntarget = "sf_edn"\n[log.b]\nfile = "plc"\ntarget = "sf_edm"\n'
     write(place, modeproof_toml=TOML + more)
     status, out, err = judge()
@@ -216,7 +216,7 @@ def test_a_file_that_lists_nothing_is_no_pass(place: Path, judge: Judge) -> None
     assert (status, out) == (2, "") and err.startswith("modeproof: modeproof.toml: lists nothing to judge")
 
 
-def test_a_state_folder_that_may_not_be_written_is_one_line(place: Path, judge: Judge) -> None:
+def test_a_state_folder_that_is_read_only_is_one_line(place: Path, judge: Judge) -> None:
     (place / ".modeproof").write_text("a file in its place")
     status, out, err = judge("--quiet")
     assert (status, out) == (2, "") and len(err.splitlines()) == 1

@@ -77,7 +77,7 @@ def test_backslashes_and_ends_of_lines_of_windows_are_read(tmp_path: Path) -> No
     ]
 
 
-def test_all_that_is_wrong_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_all_that_is_wrong_is_said_with_its_line(tmp_path: Path) -> None:
     text = """version = 1
 [program.edm]
 file = ["plc/edm.st"]
