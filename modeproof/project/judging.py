@@ -208,8 +208,8 @@ class Judging:
     def _unjudged(self, entry: Listed, clock: Clock, reason: str) -> Outcome:
         """The outcome of an entry without a verdict, which is its record too. Raises Unjudged."""
         row: Any = entry.row
-        target = getattr(row, "target", None) or getattr(row, "own", None) or ""
-        subject = next((path for _, path in row.paths()), None) or getattr(row, "command", "")
+        target: str = getattr(row, "target", None) or getattr(row, "own", None) or ""
+        subject: str = next((path for _, path in row.paths()), getattr(row, "command", ""))
         known: dict[str, Any] = {"started": clock.started, "seconds": clock.seconds}
         found = outcome.unjudged(row.words(str)[0], subject, target, self.again(entry), reason, **known)
         outcome.write(basis.record_path(entry.name), found)
