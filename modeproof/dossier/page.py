@@ -14,14 +14,16 @@ from markupsafe import Markup
 from modeproof.dossier.entries import FAILED, OPEN, ORDER, STALE, STANDS, Entries, Entry, shown_folder
 from modeproof.ground.evidence import own_tools
 from modeproof.ground.places import documents, project, root
-from modeproof.output.diagram import STYLE, drawn
-from modeproof.output.outcome import Counterexample, Scan
+from modeproof.output.diagram import STYLE, drawn, latest
+from modeproof.output.outcome import Counterexample, Demand, Problem, Scan
 from modeproof.output.words import changed, row, wrong_of
 from modeproof.registers.load import load_clauses
 from modeproof.report.environment import environment
 
 WORDS = {FAILED: "NOT as expected", STALE: "stale", OPEN: "not judged", STANDS: "stands"}
-MOST_SCANS = 24
+MOST_COLUMNS = 14
+"""Of a diagram here; `--diagram` draws all."""
+MOST_SCANS = 10
 """Of a counterexample in the table; the diagram has all."""
 
 
@@ -78,21 +80,22 @@ def _entry(number: int, entry: Entry) -> dict[str, Any]:
         shown["sentence"] = found.sentence.removeprefix(f"{found.word}: ")
         shown["demands"] = sorted(found.demands, key=lambda demand: not demand.problems)
         shown["counts"] = _counts(found.demands)
-        shown["problems"] = [
-            {
-                "demand": demand,
-                "problem": problem,
-                "diagram": drawn(problem.counterexample, demand.sentence, problem.message)
-                if problem.counterexample is not None
-                else None,
-                "scans": list(_scans(problem.counterexample)) if problem.counterexample is not None else [],
-                "left_out": max(0, len(problem.counterexample.scans) - MOST_SCANS)
-                if problem.counterexample is not None
-                else 0,
-                "set": row(problem.counterexample.parameters) if problem.counterexample is not None else "",
-            }
-            for demand, problem in found.problems
-        ]
+        shown["problems"] = [_problem(demand, problem) for demand, problem in found.problems]
+    return shown
+
+
+def _problem(demand: Demand, problem: Problem) -> dict[str, Any]:
+    shown: dict[str, Any] = {"demand": demand, "problem": problem, "diagram": None}
+    if (example := problem.counterexample) is not None:
+        short = latest(example, MOST_COLUMNS)
+        shown |= {
+            "diagram": drawn(short, demand.sentence, problem.message),
+            "begins": short.first if short is not example else 0,
+            "scans": _scans(example),
+            "lines": any(scan.spot is not None for scan in example.scans),
+            "left_out": max(0, len(example.scans) - MOST_SCANS),
+            "set": row(example.parameters),
+        }
     return shown
 
 

@@ -55,7 +55,8 @@ def run(args: argparse.Namespace) -> int:
         print(f"not read: {line}")
     for entry in entries.rows:
         if entry.state != STANDS and not args.quiet:
-            why = "; ".join(entry.stale) or entry.trouble or (entry.found.sentence if entry.found else "")
+            said = entry.found.sentence if entry.found is not None else entry.trouble
+            why = "; ".join([said, *entry.stale])
             print(f"{entry.state}: {entry.name}: {why}; run `{entry.again}`")
     print(f"dossier: {shown_path(file)}")
     if args.json is not None:

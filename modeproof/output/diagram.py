@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
+import msgspec
 from markupsafe import Markup
 
 from modeproof.kit.errors import plain
@@ -28,8 +29,8 @@ NARROW, WIDE, WHOLE = 46.0, 150.0, 940.0
 HEAD, GAP = 52.0, 22.0
 MARGIN = 6.0
 LONGEST_NAME = 30
-MOST_INPUTS = 12
-"""Inputs that are all shown; of more, those that change or are on."""
+MOST_ROWS = 18
+"""Signals that are all shown; of more, those that change, and those that are wrong."""
 
 STYLE = """
 .td text{font:12px ui-monospace,"Liberation Mono",Consolas,monospace;fill:#1f2328}
@@ -139,11 +140,10 @@ def rows_of(example: Counterexample) -> Iterator[Row]:
     columns = [column.scan for column in columns_of(example)]
     inputs = list(dict.fromkeys(name for scan in columns for name in scan.inputs))
     outputs = list(dict.fromkeys(name for scan in columns for name in (*scan.given, *scan.expected)))
-    if len(inputs) + len(outputs) > MOST_INPUTS:
-        inputs = [name for name in inputs if _lives([scan.inputs for scan in columns], name)]
-    if len(outputs) > MOST_INPUTS:
+    if len(inputs) + len(outputs) > MOST_ROWS:
+        inputs = [name for name in inputs if _changes([scan.inputs for scan in columns], name)]
         given = [scan.given for scan in columns]
-        outputs = [name for name in outputs if name in example.wrong or _lives(given, name)]
+        outputs = [name for name in outputs if name in example.wrong or _changes(given, name)]
     for name in inputs:
         yield Row(name, "input", [scan.inputs.get(name) for scan in columns])
     for name in outputs:
@@ -153,10 +153,19 @@ def rows_of(example: Counterexample) -> Iterator[Row]:
             yield Row(name, "expected", [scan.expected.get(name) for scan in columns])
 
 
-def _lives(rows: Sequence[Mapping[str, Any]], name: str) -> bool:
-    """Whether a signal changes, or is on."""
+def latest(example: Counterexample, most: int) -> Counterexample:
+    """The last columns of a counterexample, for a small picture; all of it where it has no more."""
+    columns = list(columns_of(example))
+    if len(columns) <= most:
+        return example
+    first = columns[-most].number
+    scans = example.scans[first - example.first :]
+    return msgspec.structs.replace(example, scans=scans, first=first)
+
+
+def _changes(rows: Sequence[Mapping[str, Any]], name: str) -> bool:
     values = [row.get(name) for row in rows]
-    return any(value != values[0] for value in values) or values[0] is True
+    return any(value != values[0] for value in values)
 
 
 def _name(row: Row) -> str:
