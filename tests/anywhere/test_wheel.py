@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -11,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.places import TREE
-from tests.anywhere.installed import WHEELS, Installed
+from tests.anywhere.installed import WHEELS, Installed, spent
 
 pytestmark = pytest.mark.deep
 MOST_MB, WHEEL_MB = 160, 10
@@ -19,11 +18,6 @@ NOT_OURS = ("pip", "setuptools", "pkg_resources", "_distutils_hack", "distutils-
 """What every virtual environment has."""
 HELP_S, PROOF_S = 0.3, 5.0
 """Of CPU."""
-
-
-def spent() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def files(folder: Path) -> Iterator[Path]:
