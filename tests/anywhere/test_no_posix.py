@@ -115,6 +115,18 @@ def test_no_file_of_the_tool_uses_what_windows_lacks() -> None:
 
 
 @pytest.mark.deep
+def test_a_project_file_of_windows_is_written_and_judged(tmp_path: Path) -> None:
+    (tmp_path / "plc").mkdir()
+    windows_text(ST / "sf_edm.st", tmp_path / "plc" / "Bündel Ω.st")
+    assert "SF_EDM of plc/Bündel \\u03a9.st fits sf_edm" in command(tmp_path, "init")
+    path = tmp_path / "modeproof.toml"
+    text = path.read_text("utf-8").replace("plc/", "plc\\\\").replace("\n", "\r\n")
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    assert "\\\\" in text and "1 entry: 1 as expected; 0 kept" in command(tmp_path, "judge")
+    assert "1 entry: 1 as expected; 1 kept" in command(tmp_path, "judge")
+
+
+@pytest.mark.deep
 def test_the_other_commands_run(tmp_path: Path) -> None:
     assert "nothing is missing" in command(TREE, "doctor")
     assert "CONFORMS" in command(tmp_path, "conform", "sf_edm", "--builtin", "refimpl", "--suite", "brief")

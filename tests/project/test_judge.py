@@ -87,6 +87,13 @@ def test_one_entry_not_as_expected_decides_and_is_kept(
     assert judge()[0] == 1 and len(asked) == 3
 
 
+def test_a_suite_that_could_not_be_judged_is_never_kept(
+    place: Path, asked: list[list[str]], judge: Judge
+) -> None:
+    write(place, plc__contactors_st="unjudged")
+    assert [judge()[0] for _ in (1, 2)] == [2, 2] and len(asked) == 2
+
+
 def test_what_could_not_be_judged_is_never_kept(place: Path, asked: list[list[str]], judge: Judge) -> None:
     write(place, plc__contactors_st="refused")
     for n in (1, 2):

@@ -142,6 +142,10 @@ suite = ["tour"]
             ":6: program.a.binding.nams: unknown key; did you mean 'names'?",
         ),
         (
+            'version = 1\n[adapter.a]\ntarget = "b"\ncommand = "python \'a"\n',
+            ":2: adapter.a: `command`: --adapter: No closing quotation",
+        ),
+        (
             'version = 1\n[program.a]\nfiles = ["a"]\ntarget = "b"\nproperty = "c"\n',
             ":2: program.a: needs `target`, or `property` for a program of your own; one of the two",
         ),
