@@ -55,7 +55,7 @@ def spots(
     scans: Iterable[tuple[int, Mapping[str, Any]]],
     names: Iterable[str],
 ) -> Iterator[Spot | None]:
-    """For each scan the line that set the first of these variables last; None: none of them was set.
+    """After each scan the line that set the first of these variables last; None: nothing set one as yet.
 
     scans: elapsed ms, and inputs as the interpreter takes them.
     """
