@@ -22,7 +22,11 @@ def problems_of(project: Project, entries: Sequence[Listed]) -> Iterator[str]:
             if key == "vectors" and whole.is_dir():
                 continue
             if not whole.is_file():
-                what = "is a folder; name its files" if whole.is_dir() else f"is not in {project.folder}"
+                what = (
+                    "is a folder; name its files"
+                    if whole.is_dir()
+                    else f"is not in {project.folder}; correct the path"
+                )
                 yield f"{project.at(entry, key)}: {path} {what}"
         if isinstance(row, Program | Adapter | Log) and row.target is not None:
             known = targets()[row.KIND]

@@ -68,9 +68,9 @@ def run(args: argparse.Namespace) -> int:
     if not made.entries:
         for line in _not_listed(made.others):
             print(line)
+        what = "nothing here fits a target" if made.others else "no program, wiring or log is here"
         raise Unjudged(
-            f"nothing here fits a target, so no {PROJECT_FILE} was written; docs/your-project.md says how "
-            "one is written by hand"
+            f"{what}, so no {PROJECT_FILE} was written; docs/your-project.md says how one is written by hand"
         )
     write_whole(path, "\n".join([HEAD, *(text_of(entry) for entry in made.entries)]).encode())
     count = len(made.entries)

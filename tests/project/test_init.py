@@ -132,6 +132,12 @@ def test_logs_go_to_the_target_whose_names_they_have(tmp_path: Path, init: Init)
     assert out[4] == "  prices.csv: no log: its first lines name no signal of a target"
 
 
+def test_an_empty_folder_stays_empty(tmp_path: Path, init: Init) -> None:
+    status, out, err = init()
+    assert (status, out, list(tmp_path.iterdir())) == (2, [], [])
+    assert err.startswith("modeproof: no program, wiring or log is here, so no modeproof.toml was written; ")
+
+
 @pytest.mark.parametrize(
     ("ours", "yours", "alike"),
     [

@@ -209,7 +209,7 @@ def test_a_lost_file_and_an_unknown_target_are_said_together(place: Path, judge:
     status, out, err = judge()
     assert (status, out) == (2, "")
     first, second, third = err.splitlines()
-    assert first == f"modeproof: modeproof.toml:7: log.a.file: logs/a.csv is not in {place}"
+    assert first == f"modeproof: modeproof.toml:7: log.a.file: logs/a.csv is not in {place}; correct the path"
     assert second.startswith(
         "modeproof: modeproof.toml:8: log.a.target: no target 'sf_edn'; did you mean 'sf_edm'?"
     )
