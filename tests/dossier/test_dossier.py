@@ -10,7 +10,12 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.evidence import sha256
+from modeproof.ground.progress import Progress
 from modeproof.output.outcome import File, Outcome, read, write
+from modeproof.project import basis
+from modeproof.project import file as project_file
+from modeproof.project.judging import Judging
 from tests.output.outcomes import FOREIGN, outcome
 
 PROJECT = """version = 1
@@ -27,8 +32,6 @@ target = "sf_edm"
 
 
 def file_of(path: Path, project: Path) -> File:
-    from modeproof.ground.evidence import sha256
-
     return File(path=path.relative_to(project).as_posix(), sha256=sha256(path), role="program")
 
 
@@ -87,6 +90,18 @@ def test_a_changed_or_lost_file_makes_a_verdict_stale(project: Path) -> None:
     assert states(project)["good"] == "stale"
     _, page = made(project)
     assert "plc/good.st is gone" in page
+
+
+def test_a_row_that_changed_makes_a_verdict_stale(project: Path) -> None:
+    file = project / "modeproof.toml"
+    listed = project_file.read(file, file.name)
+    judging = Judging(listed, 1, Progress(quiet=True), lambda line: None)
+    record = project / ".modeproof/records/good.json"
+    basis.keep("good", judging.basis(listed.entries[0]), read(record))
+    assert states(project)["good"] == "stands"
+    file.write_text(PROJECT.replace('target = "sf_edm"', 'target = "sf_edm"\nseconds = 5', 1), "utf-8")
+    assert states(project)["good"] == "stale"
+    assert "what modeproof.toml says of it has changed" in made(project)[1]
 
 
 def test_a_record_that_was_edited_counts_for_nothing(project: Path) -> None:
