@@ -56,8 +56,8 @@ GROUPS = {
             "judge all that modeproof.toml lists: programs, machines, adapters, logs",
         ),
         "report": (
-            "modeproof.report.report_command",
-            "the assessor's report: one HTML file, from registers and evidence",
+            "modeproof.dossier.report_command",
+            "the dossier about your project; in the tool's checkout the assessor's report",
         ),
         "explain": (
             "modeproof.explain.explain_command",
@@ -119,8 +119,9 @@ _HEARD: list[int] = []
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
-    if str(TREE) not in sys.path:  # an editable install knows the package alone, and rooms stand beside it
-        sys.path.insert(0, str(TREE))
+    # An editable install knows the package alone; of a tree that is named, its rooms come first
+    first = [place for place in (os.environ.get("MODEPROOF_ROOT"), str(TREE)) if place]
+    sys.path[:] = [*first, *(path for path in sys.path if path not in first)]
     if _COMPLETION in os.environ:
         _complete()
     given = sys.argv[1:] if argv is None else argv

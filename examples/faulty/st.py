@@ -2,7 +2,7 @@
 
     .venv/bin/python examples/faulty/st.py                        all faults
     .venv/bin/python examples/faulty/st.py st-edm-precedence      these
-    .venv/bin/python examples/faulty/st.py --render               all, and st.md anew; with names, their lines
+    .venv/bin/python examples/faulty/st.py --render               all, and st.md anew; or lines of --target T
 
 Exit status: 0 all as expected, 1 not, 2 could not be judged.
 """
@@ -112,16 +112,16 @@ def as_page(faults: Sequence[Fault], rows: Mapping[str, str]) -> str:
     lines = [
         "# Programs that are wrong in one place, judged by a proof",
         "",
-        "Each fault is one edit of a program in [Structured Text or SCL](../st) (`st-`, `scl-`), of",
-        "[a function block diagram or a ladder](../plcopen) (`fbd-`, `ld-`), or of",
+        "Each fault is one edit of a program in [Structured Text or SCL](../st) (`st-`, `scl-`), of "
+        "[a function block diagram or a ladder](../plcopen) (`fbd-`, `ld-`), or of "
         "[statement list](../awl) (`stl-`). [`st.toml`](st.toml) has the edits.",
         "",
         "```",
         ".venv/bin/python examples/faulty/st.py",
         "```",
         "",
-        f"{len(refuted)} faults are REFUTED by `modeproof prove-program`, with scans from power-up that were",
-        "run again on the reference implementation and on the program's interpreter. *Scans* counts them;",
+        f"{len(refuted)} faults are REFUTED by `modeproof prove-program`, with scans from power-up that were "
+        "run again on the reference implementation and on the program's interpreter. *Scans* counts them; "
         "the last one differs.",
         "",
         "| fault | the mistake | scans | found by |",
@@ -149,6 +149,7 @@ def main(argv: Sequence[str]) -> int:
     """The command; see the module's text."""
     parser = argparse.ArgumentParser(description="Judge the faulty programs.")
     parser.add_argument("ids", nargs="*", metavar="FAULT", help="only these")
+    parser.add_argument("--target", metavar="T", help="only those of programs that are compared with T")
     parser.add_argument("--render", action="store_true", help="write st.md anew, as far as judged")
     args = parser.parse_args(argv)
     try:
@@ -156,7 +157,13 @@ def main(argv: Sequence[str]) -> int:
         unknown = set(args.ids) - {fault.id for fault in every}
         if unknown:
             raise Unjudged(f"no fault {', '.join(sorted(unknown))}")
-        faults = [fault for fault in every if not args.ids or fault.id in args.ids]
+        faults = [
+            fault
+            for fault in every
+            if (not args.ids or fault.id in args.ids) and args.target in (None, fault.target)
+        ]
+        if not faults:
+            raise Unjudged(f"no fault of {args.target}")
         rows, wrong = dict(re.findall(LINE, PAGE.read_text("utf-8"), re.M)), 0
         with tempfile.TemporaryDirectory() as folder:
             for fault in faults:

@@ -116,6 +116,11 @@ BUILD = "build"
 """The name of the folder for all that is made, in a checkout and in what evidence says."""
 
 
+def in_checkout(place: Path) -> bool:
+    """Whether what is done is the tool's own: by who stands in its checkout, or names another tree."""
+    return place != TREE or (not INSTALLED and place in _above())
+
+
 def build(place: Path) -> Path:
     """The folder for all that is made: graphs, logs, evidence, reports. Never under version control.
 
@@ -125,6 +130,6 @@ def build(place: Path) -> Path:
     named = os.environ.get("MODEPROOF_STATE")
     if named:
         return Path(named).resolve()
-    if place != TREE or (not INSTALLED and place in _above()):
+    if in_checkout(place):
         return place / BUILD
     return project() / ".modeproof"

@@ -5,6 +5,7 @@ specification judge the change, and only then makes it anew.
 from __future__ import annotations
 
 import contextlib
+import gzip
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -21,6 +22,7 @@ from modeproof.lane.render import rendered
 from modeproof.lane.walks import walk_evidence
 from modeproof.registers.citations import read_sources
 from modeproof.registers.document_page import check_document_page
+from modeproof.registers.files import read_toml
 from modeproof.registers.killers import load_killers, stamps_of
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import check_pins, load_pins, repin
@@ -43,6 +45,9 @@ from modeproof.tlc.toolchain import find_toolchain
 
 PACKS = Path("examples/faulty/run.py")
 """The script that keeps vectors of faulty programs, where a tree has it."""
+PAGES = {"awl": (), "st": ("--target",)}
+"""Beside it, a script for each page about faulty programs in other languages, with its edits in a file of the
+same name; and what comes before a target where it can judge the programs of one alone."""
 
 
 class Refused(Exception):
@@ -239,6 +244,7 @@ def _vectors(work: Renewal, stale: Stale) -> None:
                 suite_file(tree, work.name, target, suite).unlink(missing_ok=True)
     if not stale.targets:
         return
+    before = {target: _cases(tree, target) for target in stale.targets}
     done = publish(tree, dict.fromkeys(stale.targets, work.name), whole=False)
     for target in stale.targets:
         own = [name for name in (*done.written, *done.removed) if name.startswith(f"{ROOM}/{target}/")]
@@ -246,6 +252,16 @@ def _vectors(work: Renewal, stale: Stale) -> None:
         work.moved.append(f"{work.name}: {target}: {said}")
         if own:
             _packs(work, target)
+        if _cases(tree, target) != before[target]:
+            _pages_of_faults(work, target)
+
+
+def _cases(tree: Path, target: str) -> dict[str, bytes]:
+    """The cases of each published suite of a target; without the header, which names their sources."""
+    return {
+        path.name: gzip.decompress(path.read_bytes()).partition(b"\n")[2]
+        for path in (tree / ROOM / target).glob("*.jsonl.gz")
+    }
 
 
 def _packs(work: Renewal, target: str) -> None:
@@ -269,6 +285,27 @@ def _packs(work: Renewal, target: str) -> None:
         raise Refused(
             "\n".join([f"the C program of {target} and its faults do not do what they should:", *wrong])
         )
+
+
+def _pages_of_faults(work: Renewal, target: str) -> None:
+    """Judge the faulty programs of a target in other languages by its cases, and make their pages anew."""
+    for name, option in PAGES.items():
+        script = work.tree / PACKS.with_name(f"{name}.py")
+        if not script.is_file():
+            continue
+        edits = read_toml(work.tree, script.with_suffix(".toml"))["fault"]
+        if target not in {Path(row["file"]).stem for row in edits}:
+            continue
+        work.progress.say(f"{target}: does each faulty program of {name}.toml get its verdict?")
+        chosen = [*option, target] if option else []
+        command = [sys.executable, str(script), "--render", *chosen]
+        done = subprocess.run(command, cwd=work.tree, capture_output=True, text=True, check=False)
+        if done.returncode == 2:
+            raise Unjudged(f"{script.relative_to(work.tree)}: {done.stderr.strip()}")
+        if done.returncode:
+            wrong = [line for line in done.stdout.splitlines() if line.startswith("NOT")]
+            said = f"faulty programs of {name}.toml do not do what they should:"
+            raise Refused("\n".join([said, *(wrong or [done.stderr.strip()])]))
 
 
 def _stories(work: Renewal, stale: Stale) -> None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
+import msgspec
 from markupsafe import Markup
 
 from modeproof.kit.errors import plain
@@ -28,8 +29,8 @@ NARROW, WIDE, WHOLE = 46.0, 150.0, 940.0
 HEAD, GAP = 52.0, 22.0
 MARGIN = 6.0
 LONGEST_NAME = 30
-MOST_INPUTS = 12
-"""Inputs that are all shown; of more, those that change or are on."""
+MOST_ROWS = 18
+"""Signals that are all shown; of more, those that change, and those that are wrong."""
 
 STYLE = """
 .td text{font:12px ui-monospace,"Liberation Mono",Consolas,monospace;fill:#1f2328}
@@ -39,12 +40,15 @@ STYLE = """
 .td .x{stroke:#b42318;stroke-width:2.4;fill:none}.td .xt{fill:#b42318;font-weight:700}
 .td .e{stroke:#1f2328;stroke-width:1.6;fill:none;stroke-dasharray:5 3}
 .td .frame{stroke:#b42318;stroke-width:1.6;fill:#b42318;fill-opacity:.07}
-@media (prefers-color-scheme:dark){.td text{fill:#e6edf3}.td .s{fill:#9da7b3}.td .bg{fill:#0d1117}
-.td .grid{stroke:#3d444d}.td .w,.td .bus,.td .e{stroke:#e6edf3}.td .x,.td .frame{stroke:#ff7b72}
-.td .xt{fill:#ff7b72}.td .frame{fill:#ff7b72}}
 @media print{.td text{fill:#000}.td .s{fill:#333}.td .bg{fill:#fff}.td .grid{stroke:#bbb}
 .td .w,.td .bus,.td .e,.td .x,.td .frame{stroke:#000}.td .xt{fill:#000}.td .frame{fill:#000}}
 """
+DARK = """
+@media screen and (prefers-color-scheme:dark){.td text{fill:#e6edf3}.td .s{fill:#9da7b3}.td .bg{fill:#0d1117}
+.td .grid{stroke:#3d444d}.td .w,.td .bus,.td .e{stroke:#e6edf3}.td .x,.td .frame{stroke:#ff7b72}
+.td .xt{fill:#ff7b72}.td .frame{fill:#ff7b72}}
+"""
+"""Of a picture alone; a page has its own colours."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,7 @@ def drawn(example: Counterexample, title: str, about: str, alone: bool = False) 
         parts += _band(columns, rows, band, left, width, y)
         y += HEAD + ROW * len(rows) + GAP
     whole = left + width * max(map(len, bands)) + 12
-    ground = [element("style", Markup(STYLE))] if alone else []
+    ground = [element("style", Markup(STYLE + DARK))] if alone else []
     ground += [element("rect", class_="bg", width=whole, height=y)]
     return element(
         "svg",
@@ -136,11 +140,10 @@ def rows_of(example: Counterexample) -> Iterator[Row]:
     columns = [column.scan for column in columns_of(example)]
     inputs = list(dict.fromkeys(name for scan in columns for name in scan.inputs))
     outputs = list(dict.fromkeys(name for scan in columns for name in (*scan.given, *scan.expected)))
-    if len(inputs) + len(outputs) > MOST_INPUTS:
-        inputs = [name for name in inputs if _lives([scan.inputs for scan in columns], name)]
-    if len(outputs) > MOST_INPUTS:
+    if len(inputs) + len(outputs) > MOST_ROWS:
+        inputs = [name for name in inputs if _changes([scan.inputs for scan in columns], name)]
         given = [scan.given for scan in columns]
-        outputs = [name for name in outputs if name in example.wrong or _lives(given, name)]
+        outputs = [name for name in outputs if name in example.wrong or _changes(given, name)]
     for name in inputs:
         yield Row(name, "input", [scan.inputs.get(name) for scan in columns])
     for name in outputs:
@@ -150,10 +153,19 @@ def rows_of(example: Counterexample) -> Iterator[Row]:
             yield Row(name, "expected", [scan.expected.get(name) for scan in columns])
 
 
-def _lives(rows: Sequence[Mapping[str, Any]], name: str) -> bool:
-    """Whether a signal changes, or is on."""
+def latest(example: Counterexample, most: int) -> Counterexample:
+    """The last columns of a counterexample, for a small picture; all of it where it has no more."""
+    columns = list(columns_of(example))
+    if len(columns) <= most:
+        return example
+    first = columns[-most].number
+    scans = example.scans[first - example.first :]
+    return msgspec.structs.replace(example, scans=scans, first=first)
+
+
+def _changes(rows: Sequence[Mapping[str, Any]], name: str) -> bool:
     values = [row.get(name) for row in rows]
-    return any(value != values[0] for value in values) or values[0] is True
+    return any(value != values[0] for value in values)
 
 
 def _name(row: Row) -> str:

@@ -31,7 +31,7 @@ def _known(place: Path, document: str) -> dict[str, Rule]:
             where = ", ".join(part for part in (about.title, _pages(clause.pages)) if part)
             found[clause.id] = Rule(id=clause.id, kind="clause", sentence=clause.text, source=where)
         for finding in load_findings(place, name) if document else ():
-            sentence = f"{finding.title} We decided: {finding.decision}"
+            sentence = f"{finding.title.rstrip('.')}. We decided: {finding.decision}"
             found[finding.id] = Rule(id=finding.id, kind="finding", sentence=sentence, source=about.title)
     return found
 

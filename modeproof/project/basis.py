@@ -47,6 +47,10 @@ class Basis:
     """What else decides: the inline binding."""
     files: Hashes
 
+    def is_what_was_read(self, found: Outcome) -> bool:
+        """Whether the record is of these files; else one was written to meanwhile."""
+        return all(self.files.get(file.path, file.sha256) == file.sha256 for file in found.files)
+
 
 def record_path(name: str) -> Path:
     """Where the record of an entry lies."""

@@ -11,6 +11,8 @@ from typing import Annotated, Any, ClassVar, Literal
 import msgspec
 from msgspec import Meta
 
+from modeproof.kit.adapter import split_command
+from modeproof.kit.errors import Unjudged
 from modeproof.registers.typed import Entry, SomeTexts, Text, Texts
 
 Seconds = Annotated[float, Meta(gt=0)]
@@ -171,6 +173,10 @@ class Adapter(Row, frozen=True, kw_only=True):
 
     def trouble(self) -> str:
         """As `Row.trouble`."""
+        try:
+            split_command(self.command)
+        except Unjudged as error:
+            return f"`command`: {error}"
         return (
             "`vectors` names files, and `suite` others; leave one out" if self.vectors and self.suite else ""
         )

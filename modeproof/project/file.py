@@ -7,17 +7,29 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from types import GenericAlias
+from typing import Annotated, Any, Literal
 
 import msgspec
+from msgspec import Meta
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.places import PROJECT_FILE
 from modeproof.project.entries import KINDS, Binding, Row, texts
 from modeproof.registers.typed import rows_of, typed
 
 VERSION = 1
 _NAME = re.compile(r"[A-Za-z0-9_-]{1,60}")
 _IN_LINE = re.compile(r"\(at line (\d+), column \d+\)")
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a project file, for editors; `project.schema.json` is made of it."""
+    name: Any = Annotated[str, Meta(pattern=f"^{_NAME.pattern}$")]
+    tables: list[Any] = [(kind.KIND, GenericAlias(dict, (name, kind)), {}) for kind in KINDS]
+    whole = msgspec.defstruct("Project", [("version", Literal[1]), *tables], forbid_unknown_fields=True)
+    found = msgspec.json.decode(msgspec.json.encode(msgspec.json.schema(whole)))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": PROJECT_FILE, **found}
 
 
 class Wrong(Exception):

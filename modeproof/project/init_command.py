@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 HEAD = f"""\
 # What is ours, and by what each is judged. `modeproof judge` judges all of it; docs/your-project.md says what
-# else may stand here. Paths are from the folder of this file.
+# else it may have. Paths are from the folder of this file.
 version = {VERSION}
 """
 LINE = 160

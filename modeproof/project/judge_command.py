@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -18,7 +17,7 @@ from modeproof.ground.progress import Progress
 from modeproof.project import forms
 from modeproof.project.checks import problems_of
 from modeproof.project.file import Listed, Wrong, read
-from modeproof.project.judging import Judged, Judging
+from modeproof.project.judging import Judged, Judging, from_here
 from modeproof.project.table import lines_of, status_of
 from modeproof.project.watch import Watch
 
@@ -85,7 +84,7 @@ def _keep_out_of_git(state: Path) -> None:
 
 def begun(path: Path, args: argparse.Namespace, quiet: bool = False) -> tuple[Judging, Sequence[Listed]]:
     """The project file as it is now, with the entries asked for. Raises Unjudged and Wrong."""
-    read_in = read(path, Path(os.path.relpath(path)).as_posix())
+    read_in = read(path, from_here(path))
     entries = read_in.chosen(args.names)
     if wrong := list(problems_of(read_in, entries)):
         raise Wrong(wrong)

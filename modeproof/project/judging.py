@@ -18,12 +18,12 @@ import msgspec
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
-from modeproof.ground.evidence.record import day
 from modeproof.ground.places import TREE, build, root
 from modeproof.ground.progress import Progress
 from modeproof.kit.adapter import split_command
 from modeproof.kit.kit_command import quoted
 from modeproof.output import outcome
+from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from modeproof.project import basis
 from modeproof.project.basis import Basis
@@ -116,13 +116,13 @@ class Judging:
         """What a judgement of an entry is about now."""
         row = entry.row
         said: list[str] = []
-        names = [path for _, path in row.paths()]
+        files = {path: basis.digest(self.folder / path) for _, path in row.paths()}
         if isinstance(row, Program) and row.inline is not None:
             said = [binding_text(row.inline)]
         if isinstance(row, Adapter):
             said = [] if row.files else [f"judged each time {time.time_ns()}"]
-            names += [word for word in split_command(row.command) if self._program(word) is not None]
-        files = {name: basis.digest(self._program(name) or self.folder / name) for name in names}
+            programs = {word: self._program(word) for word in split_command(row.command)}
+            files |= {word: basis.digest(path) for word, path in programs.items() if path is not None}
         return Basis(row.words(str), said, files)
 
     def _program(self, word: str) -> Path | None:
@@ -136,30 +136,26 @@ class Judging:
     def again(self, entry: Listed) -> str:
         """The command that judges an entry alone, from where this one runs."""
         row = entry.row
-        shown = os.path.relpath
         if isinstance(row, Program) and row.inline is not None and row.inline.unfinished:
             return f"modeproof judge {entry.name}"
-        binding = shown(binding_path(entry)) if isinstance(row, Program) and row.inline is not None else None
-        words = row.words(lambda path: Path(shown(self.folder / path)).as_posix(), binding)
+        inline = isinstance(row, Program) and row.inline is not None
+        binding = from_here(binding_path(entry)) if inline else None
+        words = row.words(lambda path: from_here(self.folder / path), binding)
         return " ".join(map(quoted, ["modeproof", *words]))
 
     def _one(self, entry: Listed) -> Outcome:
         self.progress.begin(entry.name)
-        began, started = time.time(), time.monotonic()
         try:
             basis.forget(entry.name)
-            found, before = self._carried_out(entry)
-            if found.status == 2 and not found.demands:  # nothing was judged, so there is nothing to keep
-                seconds = round(time.monotonic() - started, 3)
-                found = msgspec.structs.replace(found, started=day(began), seconds=seconds)
-                outcome.write(basis.record_path(entry.name), found)
-            elif self.basis(entry) == before:  # else it was written to while it was judged
+            found, before = self._carried_out(entry, Clock())
+            unjudged = outcome.UNJUDGED in (found.word, *(demand.word for demand in found.demands))
+            if not unjudged and self.basis(entry) == before and before.is_what_was_read(found):
                 basis.keep(entry.name, before, found)
             return found
         finally:
             self.progress.end(entry.name)
 
-    def _carried_out(self, entry: Listed) -> tuple[Outcome, Basis]:
+    def _carried_out(self, entry: Listed, clock: Clock) -> tuple[Outcome, Basis]:
         row, record = entry.row, basis.record_path(entry.name)
         record.unlink(missing_ok=True)
         before = self.basis(entry)
@@ -170,7 +166,7 @@ class Judging:
                 reason = (
                     f"{here}: the names of {', '.join(left)} are still empty; write those of your program"
                 )
-                return self._unjudged(entry, reason), before
+                return self._unjudged(entry, clock, reason), before
             path = binding_path(entry)
             write_whole(path, binding_text(row.inline).encode())
             file = str(path)
@@ -178,11 +174,11 @@ class Judging:
         if self.over:
             raise Unjudged("interrupted: no verdict; what was finished before is kept")
         if not record.is_file():
-            return self._unjudged(entry, told or f"the command ended with status {status}"), before
+            return self._unjudged(entry, clock, told or f"the command ended with status {status}"), before
         found = outcome.read(record)
         if found.status != status:
             record.unlink(missing_ok=True)
-            return self._unjudged(entry, f"the command ended with status {status}: {told}"), before
+            return self._unjudged(entry, clock, f"the command ended with status {status}: {told}"), before
         return found, before
 
     def _run(self, words: Sequence[str]) -> tuple[int, str]:
@@ -209,12 +205,23 @@ class Judging:
         lines = told.decode("utf-8", "replace").strip().splitlines() or [""]
         return child.returncode, lines[-1].removeprefix("modeproof: ")
 
-    def _unjudged(self, entry: Listed, reason: str) -> Outcome:
+    def _unjudged(self, entry: Listed, clock: Clock, reason: str) -> Outcome:
+        """The outcome of an entry without a verdict, which is its record too. Raises Unjudged."""
         row: Any = entry.row
-        command = row.words(str)[0]
-        target = getattr(row, "target", None) or getattr(row, "own", None) or ""
-        subject = ", ".join(path for _, path in row.paths()[:1])
-        return outcome.unjudged(command, subject, target, self.again(entry), reason)
+        target: str = getattr(row, "target", None) or getattr(row, "own", None) or ""
+        subject: str = next((path for _, path in row.paths()), getattr(row, "command", ""))
+        known: dict[str, Any] = {"started": clock.started, "seconds": clock.seconds}
+        found = outcome.unjudged(row.words(str)[0], subject, target, self.again(entry), reason, **known)
+        outcome.write(basis.record_path(entry.name), found)
+        return found
+
+
+def from_here(path: Path) -> str:
+    """A path as it is written from the current folder; whole where that is on another drive."""
+    try:
+        return Path(os.path.relpath(path)).as_posix()
+    except ValueError:
+        return path.as_posix()
 
 
 def binding_path(entry: Listed) -> Path:

@@ -108,29 +108,28 @@ class Proposals:
         keys: dict[str, str] = {}
         for other in self.found.uses:
             try:
-                names = set(read_use(self._path(other)).rest)
+                use = read_use(self._path(other))
             except Unjudged as error:
                 self.others[other] = self._short(error)
                 continue
-            if names & set(wiring.table.inputs):
-                keys.setdefault("use", other)
-                self.used.add(other)
+            rows = [use.rest, use.follows, *(row for story in use.story for row in story["row"])]
+            if {name for row in rows for name in row} & set(wiring.table.inputs):
+                self._take(keys, "use", name, other)
         for other in self.found.properties:
-            use = (
-                self._path(keys["use"])
-                if "use" in keys
-                else root() / "spec" / machines(root())[0] / "use.toml"
-            )
             text = self._path(name).read_text("utf-8")
-            machine = Machine(text, name, self._path(other), use)
+            machine = Machine(text, name, self._path(other), _shipped("use"))
             try:
                 assert machine.questions
                 assert machine.asked
             except Unjudged:
                 continue
-            keys.setdefault("properties", other)
-            self.used.add(other)
+            self._take(keys, "properties", name, other)
         return keys
+
+    def _take(self, keys: dict[str, str], key: str, name: str, file: str) -> None:
+        self.used.add(file)
+        if (first := keys.setdefault(key, file)) != file:
+            self.others[file] = f"of {name} as well; its entry has {first}, and you may write this one there"
 
     # ------------------------------------------------------------ programs
 
@@ -230,12 +229,11 @@ class Proposals:
         if not {name.upper() for name in table.inputs} & set(unit.variables):
             return False
         sources = [self._path(name) for name in keys["files"]]
-        shipped = root() / "spec" / machines(root())[0]
         machine = ProgramMachine(
             self._path(file).read_text("utf-8"),
             file,
-            shipped / "safety.toml",
-            shipped / "use.toml",
+            _shipped("safety"),
+            _shipped("use"),
             leave_out=True,
             sources=sources,
             unit=unit.name,
@@ -310,6 +308,11 @@ class Proposals:
         if path.stat().st_size > LARGEST:
             return None
         return read_table(path, target) if path.suffix.lower() == ".csv" else read_lines(path, target)
+
+
+def _shipped(name: str) -> Path:
+    """A file of the machine that is published."""
+    return root() / "spec" / machines(root())[0] / f"{name}.toml"
 
 
 def _what_is_bound(fit: Fit) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from modeproof.kit.errors import plain
-from modeproof.output.outcome import Outcome, Problem
+from modeproof.output.outcome import UNJUDGED, Outcome, Problem
 from modeproof.project.judging import Judged, Judging
 
 HEAD = ("entry", "verdict", "about", "", "seconds")
@@ -45,6 +45,8 @@ def about(found: Outcome) -> str:
     if not found.status:
         count = len(found.demands)
         return f"{count} properties" if count > 1 else found.target or found.subject
+    if found.word == UNJUDGED:
+        return found.target or found.subject
     named = list(dict.fromkeys(id for _, problem in found.problems for id in ids_of(problem)))
     named = named or [demand.id for demand in found.demands if demand.word not in ("PROVED", "CONFORMS")]
     more = f" and {len(named) - MOST} more" if len(named) > MOST else ""

@@ -86,7 +86,7 @@ ROOMS = (
     "machines",
     "modeproof/report",
     *("modeproof/simulate/program", "scenes", "modeproof/simulate/program/page", "modeproof/simulate"),
-    *("modeproof/project", "modeproof/lane", "modeproof/cli", "modeproof/__main__"),
+    *("modeproof/project", "modeproof/dossier", "modeproof/lane", "modeproof/cli", "modeproof/__main__"),
 )
 """Every room from the ground up: a module imports from its own room and from those before it."""
 

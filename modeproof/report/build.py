@@ -6,7 +6,6 @@ import base64
 import gzip
 import hashlib
 import json
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -20,6 +19,7 @@ from markupsafe import Markup
 from modeproof.ground.errors import Unjudged
 from modeproof.report.baseline import Baseline
 from modeproof.report.contradictions import contradictions
+from modeproof.report.environment import environment as made_environment
 from modeproof.report.filing import Filing, commit_of
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
 from modeproof.report.missing import missing, mixed, unexpected
@@ -30,7 +30,6 @@ from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
-from modeproof.report.verdicts import ASIDE
 
 SCHEMA_VERSION = 1
 SCHEMA = Path(__file__).with_name("report.schema.json")
@@ -147,7 +146,7 @@ def _says(error: BaseException) -> str:
 
 def _rendered(part: Part, troubles: tuple[Trouble, ...]) -> str:
     """The HTML of a part, as its template makes it."""
-    environment = _environment()
+    environment = made_environment()
     name = "unmade" if UNMADE in part.data else part.id
     macros = environment.get_template("macros.html.j2").module
     return environment.get_template(f"{name}.html.j2").render(
@@ -192,7 +191,7 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
 
 
 def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], json_sha256: str) -> str:
-    environment = _environment()
+    environment = made_environment()
     macros = environment.get_template("macros.html.j2").module
     terms = Terms(sources)
     shown = [
@@ -263,38 +262,3 @@ def _packed_tables() -> tuple[tuple[str, str], ...]:
 
 def _packed(content: bytes) -> str:
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
-
-
-@cache
-def _environment() -> jinja2.Environment:
-    """Everything that a template writes is escaped, unless it is Markup of ours."""
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("modeproof.report", "page"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.globals["ASIDE"] = ASIDE
-    environment.filters["number"] = number
-    environment.filters["script_json"] = script_json
-    environment.filters["css_string"] = css_string
-    return environment
-
-
-def number(value: Any) -> str:
-    """A figure as the page shows it: thousands by comma, seconds with one decimal."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return str(value)
-    return f"{value:,}" if isinstance(value, int) else f"{value:,.1f}"
-
-
-def css_string(text: str) -> Markup:
-    """A text as a string of a style sheet; whatever is not plain becomes its code."""
-    return Markup('"' + re.sub(r"[^\w .,:/()-]", lambda found: f"\\{ord(found.group()):x} ", text) + '"')
-
-
-def script_json(value: Mapping[str, Any]) -> Markup:
-    """JSON that cannot end the script element in which it is."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return Markup(text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"))

@@ -40,6 +40,7 @@ from modeproof.suites.conform_outcome import about, outcome_of
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
 from modeproof.tlc.rests import row_of
+from modeproof.tlc.toolchain import find_toolchain
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -237,17 +238,28 @@ def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
 def _suites(place: Path, document: str, device: Device, args: argparse.Namespace) -> list[Suite]:
     """The suites asked for, made where none is published or it is of another text. Raises Unjudged.
 
-    One that was not named itself is left out where the target has no cases of its kind. The program is
-    greeted before one is made: that takes long.
+    One that was not named itself is left out where the target has no cases of its kind, or where TLC, which
+    would have to make it, is not installed and others are there. The program is greeted before one is made:
+    that takes long.
     """
     names = chosen_suites(args.suite, args.relation)
     if strange := [name for name in names if name not in SUITES]:
         raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], [kit_command.FAST, *SUITES])}")
-    found = []
+    found: list[Suite] = []
     greeted = False
+    there = {name: path for name in names if (path := published(place, args.target, name)) is not None}
+    missing = [name for name in names if name not in there]
+    if missing and (why := _no_tlc()):
+        if not there or set(missing) & set(args.suite or ()):
+            ready = ", ".join(name for name in SUITES if published(place, args.target, name))
+            raise Unjudged(
+                f"the suite {missing[0]} has to be made, and {why}; --suite NAME of {ready} needs none"
+            )
+        say(f"left out, for TLC would have to make what there is of them: {', '.join(missing)}")
+        names = list(there)
     for name in names:
-        if (path := published(place, args.target, name)) is not None:
-            found.append(open_suite(path))
+        if name in there:
+            found.append(open_suite(there[name]))
             continue
         if not greeted:
             kit_command.greet(args, device.outputs)
@@ -262,6 +274,15 @@ def _suites(place: Path, document: str, device: Device, args: argparse.Namespace
     if not found:
         raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
     return found
+
+
+def _no_tlc() -> str:
+    """Why TLC cannot be run, if so."""
+    try:
+        find_toolchain()
+    except Unjudged as error:
+        return error.message
+    return ""
 
 
 def chosen_suites(names: list[str] | None, relation: str) -> list[str]:

@@ -22,6 +22,7 @@ from modeproof.output.outcome import (
     tools,
 )
 from modeproof.output.rules import rules_of
+from modeproof.output.words import shown
 from modeproof.trace.log import Log, Row
 from modeproof.trace.log_judge import Judgement
 from modeproof.trace.targets import Target
@@ -154,13 +155,14 @@ def _demand(
     problems = []
     if line:
         row = log.rows[accepted]
-        _, shown = _wire(target, row)
-        wrong = [name for name, value in expected.items() if name in shown and shown[name] != value]
+        _, outputs = _wire(target, row)
+        wrong = [name for name, value in expected.items() if name in outputs and outputs[name] != value]
+        said = [f"{name} is {shown(outputs[name])}, expected {shown(expected[name])}" for name in wrong]
         problems.append(
             Problem(
                 rule=Rule(id=args.target, kind="log", sentence=sentence),
                 others=list(rules),
-                message=line,
+                message=": ".join([line, *(["; ".join(said)] if said else [])]),
                 spot=Spot(file=shown_path(args.log), line=row.line),
                 counterexample=_counterexample(args, target, log, accepted, expected, wrong),
             )

@@ -55,7 +55,7 @@ def spots(
     scans: Iterable[tuple[int, Mapping[str, Any]]],
     names: Iterable[str],
 ) -> Iterator[Spot | None]:
-    """For each scan the line that set the first of these variables last; None: none of them was set.
+    """After each scan the line that set the first of these variables last; None: nothing set one as yet.
 
     scans: elapsed ms, and inputs as the interpreter takes them.
     """
@@ -263,15 +263,19 @@ def outcome_of_properties(
     """A run with --property."""
     words = [one.word for one in found]
     order = ("REFUTED", "UNKNOWN", "EMPTY", "HOLDS", "PROVED")
+    word = next(word for word in order if word in words)
+    counts = ", ".join(f"{words.count(one)} {one}" for one in order if one in words)
+    common = _common(args, record, text, clock)
+    common["sentence"] = f"{word}: {counts}: {common['sentence']}"
     low, high = cell.scan_time
     times = f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
     return Outcome(
         target=shown_path(args.property),
-        word=next(word for word in order if word in words),
+        word=word,
         strength=f"every input, scans of {times}, from power-up, for ever",
         demands=[demand_of_property(cell, one, questions) for one in found],
         assumptions=list(assumed(cell.source, cell.unit)),
-        **_common(args, record, text, clock),
+        **common,
     )
 
 

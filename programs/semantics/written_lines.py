@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from programs.language.tree import Expression, Place, root_of
+from programs.language.tree import Expression, Place, Source, Unit, root_of
 from programs.semantics.interpreter import Machine
 from programs.semantics.memory_of_units import Frame
 
 
 class Noting(Machine):
-    """A program at power-up. `lines`: of each variable of its own the place that set it last in this scan."""
+    """A program at power-up. `lines`: of each of its variables that was set, the place that set it last."""
 
-    lines: dict[str, Place]
-
-    def scan(self, inputs: Any, dt_ms: int) -> dict[str, Any]:
-        """One scan, as the interpreter does it."""
-        self.lines = {}
-        return super().scan(inputs, dt_ms)
+    def __init__(self, source: Source, unit: Unit, wrap: bool = False) -> None:
+        super().__init__(source, unit, wrap)
+        self.lines: dict[str, Place] = {}
 
     def store(self, frame: Frame, target: Expression, value: Any) -> None:
         """Keep a value; of the program's own variables note where that was."""

@@ -72,3 +72,9 @@ def install(place: Path) -> Installed:
     _, step, _ = recipe("action.yml")["runs"]["steps"]
     made.run(place, "sh", "-c", step["run"], WHEELS=str(WHEELS), PIP_NO_INDEX="1")
     return made
+
+
+def spent() -> float:
+    """Seconds of CPU time of all commands so far."""
+    used = os.times()
+    return used.children_user + used.children_system

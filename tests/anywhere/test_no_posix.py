@@ -115,6 +115,18 @@ def test_no_file_of_the_tool_uses_what_windows_lacks() -> None:
 
 
 @pytest.mark.deep
+def test_a_project_file_of_windows_is_written_and_judged(tmp_path: Path) -> None:
+    (tmp_path / "plc").mkdir()
+    windows_text(ST / "sf_edm.st", tmp_path / "plc" / "Bündel Ω.st")
+    assert "SF_EDM of plc/Bündel \\u03a9.st fits sf_edm" in command(tmp_path, "init")
+    path = tmp_path / "modeproof.toml"
+    text = path.read_text("utf-8").replace("plc/", "plc\\\\").replace("\n", "\r\n")
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    assert "\\\\" in text and "1 entry: 1 as expected; 0 kept" in command(tmp_path, "judge")
+    assert "1 entry: 1 as expected; 1 kept" in command(tmp_path, "judge")
+
+
+@pytest.mark.deep
 def test_the_other_commands_run(tmp_path: Path) -> None:
     assert "nothing is missing" in command(TREE, "doctor")
     assert "CONFORMS" in command(tmp_path, "conform", "sf_edm", "--builtin", "refimpl", "--suite", "brief")
@@ -123,3 +135,17 @@ def test_the_other_commands_run(tmp_path: Path) -> None:
     assert "recorded counterexamples" in command(tmp_path, "simulate", "--out", "page.html")
     command(tmp_path, "machine", "--picture", "wiring.mmd")
     assert (tmp_path / "wiring.mmd").read_text(encoding="utf-8").startswith("flowchart")
+
+
+@pytest.mark.deep
+def test_a_project_file_of_windows_is_judged_and_kept(tmp_path: Path) -> None:
+    (tmp_path / "plc").mkdir()
+    windows_text(ST / "sf_edm.st", tmp_path / "plc" / "contactors.st")
+    assert "SF_EDM of plc/contactors.st fits sf_edm" in command(tmp_path, "init")
+    row = b"version = 1\r\n[program.contactors]\r\nfiles = ['plc\\contactors.st']\r\ntarget = 'sf_edm'\r\n"
+    (tmp_path / "modeproof.toml").write_bytes(row)
+    assert "1 as expected; 0 kept" in command(tmp_path, "judge", "--junit", "found.xml")
+    assert "1 as expected; 1 kept" in command(tmp_path, "judge")
+    (tmp_path / "modeproof.toml").write_bytes(row.replace(b"plc\\", b"D:\\plc\\"))
+    done = without_posix(tmp_path, "-m", "modeproof", "judge", status=2)
+    assert "D:/plc/contactors.st" in done.stderr and len(done.stderr.splitlines()) == 1

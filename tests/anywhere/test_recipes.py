@@ -11,11 +11,13 @@ from xml.etree import ElementTree
 import pytest
 
 from modeproof.ground.places import TREE
-from tests.anywhere.installed import Installed, recipe
+from tests.anywhere.installed import Installed, recipe, spent
 from tests.project.foreign import BLOCK, TOML, WRONG, write
 
 INSTALL = 'pip install --find-links "$WHEELS" modeproof'
 JUDGE = "modeproof judge --junit modeproof.xml --sarif modeproof.sarif --markdown modeproof.md"
+AGAIN_S = 2.0
+"""Of CPU."""
 WORKFLOWS = ("action.yml", ".github/workflows/release.yml", "examples/ci/github.yml")
 
 
@@ -90,14 +92,17 @@ def test_no_job_of_the_release_may_more_than_it_needs() -> None:
 
 @pytest.mark.deep
 def test_each_recipe_judges_a_foreign_repository(installed: Installed, tmp_path: Path) -> None:
-    folder = write(tmp_path / "theirs", modeproof_toml=TOML, plc__contactors_st=BLOCK)
+    folder = write(tmp_path / "theirs", plc__contactors_st=BLOCK)
+    installed.run(folder, "modeproof", "example", "fplc_good.csv")
+    assert "with 2 entries" in installed.run(folder, "modeproof", "init").stdout
     summary = tmp_path / "summary.md"
     for number, (name, commands) in enumerate(RECIPES.items()):
         ran = [command for command in commands() if command != INSTALL]  # what is installed was by this line
         assert len(ran) == 1, name
         done = installed.run(folder, "sh", "-c", ran[0], GITHUB_STEP_SUMMARY=str(summary))
-        assert re.search(r"^contactors +PROVED +sf_edm", done.stdout, re.M), name
-        assert ("1 kept" in done.stdout) == (number > 0)
+        assert re.search(r"^sf_edm +PROVED +sf_edm", done.stdout, re.M), name
+        assert re.search(r"^fplc_good +CONFORMS +fplc", done.stdout, re.M), name
+        assert f"2 as expected; {2 if number else 0} kept" in done.stdout
     assert "PROVED" in summary.read_text("utf-8") and "PROVED" in (folder / "modeproof.md").read_text("utf-8")
     assert json.loads((folder / "modeproof.sarif").read_text("utf-8"))["runs"][0]["results"] == []
 
@@ -113,3 +118,22 @@ def test_a_program_that_differs_fails_in_each_form(installed: Installed, tmp_pat
     where = result["locations"][0]["physicalLocation"]
     assert where["artifactLocation"]["uri"] == "plc/contactors.st" and where["region"]["startLine"] > 1
     assert "REFUTED" in (folder / "modeproof.md").read_text("utf-8")
+
+
+@pytest.mark.long
+def test_four_kinds_of_entries_are_judged_once(installed: Installed, tmp_path: Path) -> None:
+    for name in (
+        "sf_edm.st",
+        "cell.st",
+        "cell.toml",
+        "wiring.toml",
+        "safety.toml",
+        "use.toml",
+        "fplc_good.csv",
+    ):
+        installed.run(tmp_path, "modeproof", "example", name)
+    assert "with 4 entries" in installed.run(tmp_path, "modeproof", "init").stdout
+    assert "4 as expected; 0 kept" in installed.run(tmp_path, "modeproof", "judge").stdout
+    began = spent()
+    assert "4 as expected; 4 kept" in installed.run(tmp_path, "modeproof", "judge").stdout
+    assert spent() - began <= AGAIN_S

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -11,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.places import TREE
-from tests.anywhere.installed import WHEELS, Installed
+from tests.anywhere.installed import WHEELS, Installed, spent
 
 pytestmark = pytest.mark.deep
 MOST_MB, WHEEL_MB = 160, 10
@@ -19,11 +18,6 @@ NOT_OURS = ("pip", "setuptools", "pkg_resources", "_distutils_hack", "distutils-
 """What every virtual environment has."""
 HELP_S, PROOF_S = 0.3, 5.0
 """Of CPU."""
-
-
-def spent() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def files(folder: Path) -> Iterator[Path]:
@@ -79,3 +73,13 @@ def test_what_is_not_installed_is_one_line(installed: Installed, tmp_path: Path)
     done = installed.run(tmp_path, "modeproof", "check", "WIT_SF_EDM", status=2)
     [line] = done.stderr.splitlines()
     assert "the TLC jar is missing" in line and 'pip install "modeproof[tlc]"' in line
+
+
+def test_vectors_and_logs_are_judged_without_java(installed: Installed, tmp_path: Path) -> None:
+    installed.run(tmp_path, "modeproof", "example", "fplc_good.csv")
+    said = installed.run(tmp_path, "modeproof", "trace", "fplc", "fplc_good.csv").stdout
+    assert "CONFORMS(exact, fplc_good.csv; 8 of 8 outputs compared" in said
+    given = ["modeproof", "conform", "sf_edm", "--builtin", "refimpl"]
+    assert "CONFORMS(exact, brief" in installed.run(tmp_path, *given, "--suite", "brief").stdout
+    [line] = installed.run(tmp_path, *given, "--suite", "tour", status=2).stderr.splitlines()
+    assert "the suite tour has to be made" in line and 'pip install "modeproof[tlc]"' in line

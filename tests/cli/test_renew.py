@@ -16,8 +16,10 @@ import pytest
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import TREE
+from modeproof.ground.progress import Progress
 from modeproof.lane import staging
 from modeproof.lane.renew import _blocks_of
+from modeproof.lane.renewal import Refused, Renewal, _cases, _pages_of_faults
 from tests.cli.test_sixth_document import edit, empty_root, with_the_sixth
 
 DRIVER = """
@@ -208,6 +210,47 @@ def test_unsafe_code_is_refused_with_the_scans(root: Path) -> None:
     assert status == 1 and "specification and reference implementation differ" in text, text
     assert "shortest inputs from power-up:" in text and "scan 2: " in text
     assert files(root) == before
+
+
+SCRIPT = """
+import pathlib, sys
+here = pathlib.Path(__file__)
+print("NOT st-one: PROVED")
+with here.with_suffix(".md").open("a") as page:
+    print(*sys.argv[1:], file=page)
+sys.exit(int(here.with_suffix(".status").read_text()))
+"""
+
+
+def test_pages_of_faulty_programs_follow_the_cases_of_their_target(tmp_path: Path) -> None:
+    folder = tmp_path / "examples/faulty"
+    folder.mkdir(parents=True)
+    for name in ("awl", "st"):
+        (folder / f"{name}.py").write_text(SCRIPT, "utf-8")
+        (folder / f"{name}.status").write_text("0", "utf-8")
+        (folder / f"{name}.toml").write_text(f'[[fault]]\nfile = "examples/{name}/gate.{name}"\n', "utf-8")
+    work = Renewal(tmp_path, "sluice", lambda pins: "", Progress(quiet=True))
+    _pages_of_faults(work, "lock")
+    assert not (folder / "st.md").exists() and not (folder / "awl.md").exists()
+    _pages_of_faults(work, "gate")
+    assert (folder / "st.md").read_text("utf-8") == "--render --target gate\n"
+    assert (folder / "awl.md").read_text("utf-8") == "--render\n"
+    (folder / "st.status").write_text("1", "utf-8")
+    with pytest.raises(Refused, match="NOT st-one: PROVED"):
+        _pages_of_faults(work, "gate")
+    (folder / "st.status").write_text("2", "utf-8")
+    with pytest.raises(Unjudged, match=r"examples/faulty/st\.py"):
+        _pages_of_faults(work, "gate")
+
+
+def test_another_header_is_no_other_case(tmp_path: Path) -> None:
+    room = tmp_path / "vectors/gate"
+    room.mkdir(parents=True)
+    found = []
+    for text in (b"header\ncase\n", b"another header\ncase\n", b"header\nanother case\n"):
+        (room / "brief.jsonl.gz").write_bytes(gzip.compress(text))
+        found.append(_cases(tmp_path, "gate"))
+    assert found[0] == found[1] != found[2]
 
 
 def test_vectors_of_a_machine_wait_for_every_changed_block() -> None:

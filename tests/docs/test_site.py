@@ -35,7 +35,7 @@ def test_every_page_is_behind_a_door_once() -> None:
     ]
 
 
-def test_every_link_of_the_tree_becomes_a_link_of_the_site() -> None:
+def test_every_link_of_the_tree_becomes_one_of_the_site() -> None:
     made = build.pages()
     assert {
         "index.md",
@@ -76,7 +76,7 @@ def test_a_link_to_nothing_is_refused(tree: Path) -> None:
         build.pages(tree)
 
 
-def test_what_a_page_of_the_site_lacks_or_loads_is_found(tmp_path: Path) -> None:
+def test_what_a_page_lacks_or_loads_is_found(tmp_path: Path) -> None:
     (tmp_path / "a.html").write_text(
         "<h1 id=top></h1><a href='#top'></a><a href='b.html#gone'></a><a href='c.html'></a><a href='https://x.org'></a>"
         "<script src='https://x.org/a.js'></script><img src='data:,'><link rel=stylesheet href='none.css'>"
@@ -103,7 +103,7 @@ def test_a_list_within_a_list_stays_one() -> None:
     )
 
 
-def test_what_the_site_is_made_with_is_pinned_by_its_hashes() -> None:
+def test_what_makes_the_site_is_pinned_by_its_hashes() -> None:
     lock = (ROOT / "docs" / "requirements.lock").read_text(encoding="utf-8")
     pins = [line for line in lock.splitlines() if "==" in line and not line.startswith(("#", " "))]
     assert {"zensical==0.0.73", "mermaidx==0.10.1"} <= {pin.split()[0] for pin in pins}

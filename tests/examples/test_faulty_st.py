@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from examples.faulty.st import HEAD_PROVED, LINE, PAGE, judge, load_faults, main, row
+from examples.faulty.st import HEAD_PROVED, LINE, PAGE, as_page, judge, load_faults, main, row
 from modeproof.ground.errors import Unjudged
 from tests.examples.entries import entries, entry
 
@@ -46,6 +46,8 @@ def test_the_page_lists_exactly_the_faulty_programs() -> None:
     refuted = [name for name, _ in re.findall(LINE, page, re.MULTILINE)]
     proved = [one.split("**")[1] for one in entries(PAGE)]
     assert sorted([*refuted, *proved]) == sorted(FAULTS)
+    lines = dict(re.findall(LINE, page, re.MULTILINE))
+    assert as_page([*FAULTS.values()], lines) == page, "run examples/faulty/st.py --render"
     shown = Counter(name.partition("-")[0] for name, fault in FAULTS.items() if not fault.reason)
     assert shown["st"] >= 30 and min(shown[name] for name in ("scl", "fbd", "ld", "stl")) >= 4
     assert {fault.target for fault in FAULTS.values()} >= {"sf_edm", "sf_enable_switch", "sf_guard_locking"}
@@ -70,5 +72,7 @@ def test_a_fault_that_is_none_is_not_judged(text: str, cause: str, tmp_path: Pat
 def test_the_command_tells_expected_from_unjudged(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["st-edm-precedence"]) == 0
     assert "ok  st-edm-precedence: REFUTED" in capsys.readouterr().out
+    assert main(["--target", "none"]) == 2
+    assert "no fault of none" in capsys.readouterr().err
     assert main(["st-none"]) == 2
     assert "no fault st-none" in capsys.readouterr().err

@@ -12,7 +12,7 @@ import pytest
 from modeproof.cli import main
 from modeproof.ground.places import TREE
 from modeproof.kit import __main__ as kit
-from modeproof.output.diagram import as_svg, columns_of, rows_of
+from modeproof.output.diagram import as_svg, columns_of, latest, rows_of
 from modeproof.output.markdown import as_markdown, escaped
 from modeproof.output.outcome import Counterexample, Scan, read, unjudged
 from tests.output.outcomes import FOREIGN, SCANS, outcome
@@ -100,6 +100,22 @@ def test_many_scans_go_on_below() -> None:
     assert [text.text for text in root.iter(f"{SVG}text")].count("Key") > 1
     names = [row.name for row in rows_of(Counterexample(scans=scans))]
     assert names == ["Key", "Lamp"]
+
+
+def test_of_many_signals_only_what_changes_is_drawn() -> None:
+    inputs = {f"In{n}": True for n in range(20)}
+    scans = [
+        Scan(dt_ms=1, inputs={**inputs, "Key": key}, given={"Lamp": False, "Bell": key}) for key in (0, 1)
+    ]
+    names = [row.name for row in rows_of(Counterexample(scans=scans, wrong=["Lamp"]))]
+    assert names == ["Key", "Lamp", "Bell"]
+
+
+def test_a_small_picture_has_the_last_columns() -> None:
+    scans = [Scan(dt_ms=1, inputs={"Key": n % 2 == 0}, given={"Lamp": False}) for n in range(40)]
+    short = latest(Counterexample(scans=scans), 5)
+    assert (short.first, len(short.scans)) == (36, 5)
+    assert latest(EXAMPLE, 5) is EXAMPLE
 
 
 # ---------------------------------------------------------------- the options

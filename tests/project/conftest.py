@@ -34,8 +34,8 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
         text = (judging.folder / own[1]).read_text("utf-8") if own[0] == "prove-program" else ""
         if "refused" in text:
             return 2, f"{own[1]}:1: syntax error"
-        status: Any = 1 if text == WRONG else 2 if "unknown" in text else 0
-        word = ("PROVED", "REFUTED", "UNKNOWN")[status]
+        status: Any = 1 if text == WRONG else 2 if text in ("unknown", "unjudged") else 0
+        word = outcome.UNJUDGED if "unjudged" in text else ("PROVED", "REFUTED", "UNKNOWN")[status]
         rule = outcome.Rule(id="EDMA-01", kind="clause", sentence="")
         problems = [outcome.Problem(rule=rule, message="after 3 scans it is off")] if status else []
         demand = outcome.Demand(id="equal", word=word, sentence="", problems=problems)

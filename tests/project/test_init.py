@@ -96,13 +96,17 @@ def test_where_nothing_fits_no_file_is_written(tmp_path: Path, init: Init) -> No
     assert out[-1].startswith("  blink.st: Blink has") and not (tmp_path / "modeproof.toml").exists()
 
 
-@pytest.mark.skipif("os.geteuid() == 0", reason="root may write everywhere")
-def test_a_folder_that_may_not_be_written_is_one_line(tmp_path: Path, init: Init) -> None:
+def test_a_folder_that_may_not_be_written_is_one_line(
+    tmp_path: Path, init: Init, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def closed(*words: object, **others: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
     write(tmp_path, edm_st=BLOCK)
-    tmp_path.chmod(0o500)
+    monkeypatch.setattr("modeproof.kit.files.tempfile.mkstemp", closed)
     status, out, err = init()
-    tmp_path.chmod(0o700)
-    assert (status, out) == (2, []) and "modeproof.toml: cannot be written: Permission denied" in err
+    assert (status, out) == (2, []) and len(err.splitlines()) == 1
+    assert "modeproof.toml: cannot be written: Permission denied" in err
 
 
 def test_a_full_disk_leaves_no_half_of_a_file(
@@ -140,6 +144,6 @@ def test_which_names_are_alike(ours: str, yours: str, alike: bool) -> None:
     assert (likeness(ours, yours) > 0) == alike
 
 
-def test_two_names_that_fit_as_well_are_left_to_the_user() -> None:
+def test_two_names_that_fit_alike_are_left_to_the_user() -> None:
     found, doubtful = matched(["Reset", "Error"], ["Error", "xReset", "yReset"], lambda ours, yours: True)
     assert found == {"Error": "Error"} and doubtful == {"Reset": ["xReset", "yReset"]}

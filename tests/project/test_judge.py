@@ -68,7 +68,7 @@ def test_another_version_of_the_tool_judges_again(
     assert "judged by another version of modeproof" in judge()[2] and len(asked) == 2
 
 
-def test_one_entry_that_is_not_as_expected_decides_and_is_kept(
+def test_one_entry_not_as_expected_decides_and_is_kept(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     more = "".join(TOML.partition("\n\n")[2].replace("contactors", name) for name in "bc")
@@ -87,6 +87,13 @@ def test_one_entry_that_is_not_as_expected_decides_and_is_kept(
     assert judge()[0] == 1 and len(asked) == 3
 
 
+def test_a_suite_that_could_not_be_judged_is_never_kept(
+    place: Path, asked: list[list[str]], judge: Judge
+) -> None:
+    write(place, plc__contactors_st="unjudged")
+    assert [judge()[0] for _ in (1, 2)] == [2, 2] and len(asked) == 2
+
+
 def test_what_could_not_be_judged_is_never_kept(place: Path, asked: list[list[str]], judge: Judge) -> None:
     write(place, plc__contactors_st="refused")
     for n in (1, 2):
@@ -97,23 +104,31 @@ def test_what_could_not_be_judged_is_never_kept(place: Path, asked: list[list[st
     assert record.word == "UNJUDGED" and record.status == 2
 
 
-def test_a_file_that_is_written_while_it_is_judged_is_not_kept(
-    place: Path, asked: list[list[str]], judge: Judge, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("until_the_end", [True, False])
+def test_a_file_written_while_it_is_judged_is_not_kept(
+    place: Path,
+    asked: list[list[str]],
+    judge: Judge,
+    monkeypatch: pytest.MonkeyPatch,
+    until_the_end: bool,
 ) -> None:
     run = Judging._run
 
     def saved(judging: Judging, words: Sequence[str]) -> tuple[int, str]:
+        if not until_the_end:
+            write(place, plc__contactors_st=WRONG)
         found = run(judging, words)
-        write(place, plc__contactors_st=BLOCK + "\n")
+        write(place, plc__contactors_st=WRONG if until_the_end else BLOCK)
         return found
 
-    monkeypatch.setattr(Judging, "_run", saved)
-    judge()
-    judge()
-    assert len(asked) == 2
+    with monkeypatch.context() as patch:
+        patch.setattr(Judging, "_run", saved)
+        judge()
+    write(place, plc__contactors_st=BLOCK)
+    assert judge()[0] == 0 and len(asked) == 2
 
 
-def test_a_status_that_is_not_that_of_the_record_is_no_verdict(
+def test_a_status_unlike_that_of_the_record_is_no_verdict(
     place: Path, asked: list[list[str]], judge: Judge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = Judging._run
@@ -136,7 +151,7 @@ def test_an_inline_binding_is_written_for_the_command(
     assert judge()[0] == 0 and len(asked) == 2
 
 
-def test_a_name_that_is_still_empty_is_unjudged_with_its_line(
+def test_a_name_still_empty_is_unjudged_with_its_line(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     names = '[program.contactors.binding.names]\nS_EDM1 = ""\nS_EDM2 = "B"\n'
@@ -149,7 +164,7 @@ def test_a_name_that_is_still_empty_is_unjudged_with_its_line(
     )
 
 
-def test_an_adapter_is_judged_each_time_unless_its_files_are_named(
+def test_an_adapter_is_judged_again_unless_its_files_are_named(
     place: Path, asked: list[list[str]], judge: Judge
 ) -> None:
     text = 'version = 1\n[adapter.own]\ntarget = "sf_edm"\ncommand = "python a.py"\n'
@@ -188,7 +203,7 @@ def test_no_project_file_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert not list(tmp_path.iterdir())
 
 
-def test_a_file_that_is_gone_and_an_unknown_target_are_said_at_once(place: Path, judge: Judge) -> None:
+def test_a_lost_file_and_an_unknown_target_are_said_together(place: Path, judge: Judge) -> None:
     more = '[log.a]\nfile = "logs/a.csv"\ntarget = "sf_edn"\n[log.b]\nfile = "plc"\ntarget = "sf_edm"\n'
     write(place, modeproof_toml=TOML + more)
     status, out, err = judge()
@@ -208,7 +223,7 @@ def test_a_file_that_lists_nothing_is_no_pass(place: Path, judge: Judge) -> None
     assert (status, out) == (2, "") and err.startswith("modeproof: modeproof.toml: lists nothing to judge")
 
 
-def test_a_state_folder_that_may_not_be_written_is_one_line(place: Path, judge: Judge) -> None:
+def test_a_state_folder_that_is_read_only_is_one_line(place: Path, judge: Judge) -> None:
     (place / ".modeproof").write_text("a file in its place")
     status, out, err = judge("--quiet")
     assert (status, out) == (2, "") and len(err.splitlines()) == 1
@@ -236,12 +251,14 @@ def test_a_program_is_judged_by_its_own_command(place: Path, judge: Judge) -> No
     assert (status, err) == (1, "") and "REFUTED" in out
     record = json.loads((place / ".modeproof/records/contactors.json").read_text("utf-8"))
     assert record["command"] == "prove-program" and record["files"][0]["path"] == "plc/contactors.st"
-    again = [sys.executable, "-m", "modeproof", "judge", "--quiet"]
-    said = "import sys; from modeproof.cli import main; main(['judge']); print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-c", said], cwd=place, capture_output=True, text=True, env=env())
+    said = (
+        "import atexit, sys; atexit.register(lambda: print(*sys.modules)); from modeproof.cli import main; "
+    )
+    again = [sys.executable, "-c", f"{said}sys.exit(main(['judge']))"]
+    done = subprocess.run(again, cwd=place, capture_output=True, text=True, env=env())
     modules = set(done.stdout.split())
-    assert "1 kept" in done.stdout and modules.isdisjoint({"z3", "cvc5", "networkx", "jsonschema"})
-    assert subprocess.run(again, cwd=place, capture_output=True, env=env()).returncode == 1
+    assert done.returncode == 1 and "1 kept" in done.stdout
+    assert "msgspec" in modules and modules.isdisjoint({"z3", "cvc5", "networkx", "jsonschema"})
 
 
 def env() -> dict[str, str]:

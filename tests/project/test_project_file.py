@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from modeproof.ground.errors import Unjudged
-from modeproof.project.file import Project, Wrong, read
+from modeproof.ground.places import TREE
+from modeproof.project.file import Project, Wrong, read, schema
+from tests.project.foreign import TOML
 
 
 def read_text(folder: Path, text: str) -> Project:
@@ -72,7 +77,7 @@ def test_backslashes_and_ends_of_lines_of_windows_are_read(tmp_path: Path) -> No
     ]
 
 
-def test_all_that_is_wrong_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_all_that_is_wrong_is_said_with_its_line(tmp_path: Path) -> None:
     text = """version = 1
 [program.edm]
 file = ["plc/edm.st"]
@@ -137,6 +142,10 @@ suite = ["tour"]
             ":6: program.a.binding.nams: unknown key; did you mean 'names'?",
         ),
         (
+            'version = 1\n[adapter.a]\ntarget = "b"\ncommand = "python \'a"\n',
+            ":2: adapter.a: `command`: --adapter: No closing quotation",
+        ),
+        (
             'version = 1\n[program.a]\nfiles = ["a"]\ntarget = "b"\nproperty = "c"\n',
             ":2: program.a: needs `target`, or `property` for a program of your own; one of the two",
         ),
@@ -160,3 +169,14 @@ def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
     (tmp_path / "modeproof.toml").write_bytes(b"version = 1\n\xff")
     with pytest.raises(Unjudged, match=r"modeproof.toml: byte 12 is no UTF-8"):
         read(tmp_path / "modeproof.toml", "modeproof.toml")
+
+
+def test_the_schema_is_that_of_the_entries(tmp_path: Path) -> None:
+    shipped = json.loads((TREE / "modeproof/project/project.schema.json").read_text("utf-8"))
+    assert shipped == schema()
+    check = jsonschema.Draft202012Validator(shipped)
+    table = tomllib.loads(TOML)
+    assert check.is_valid(table) and not check.is_valid({**table, "version": 2})
+    assert not check.is_valid({**table, "progam": {}})
+    table["program"]["contactors"]["tarket"] = "x"
+    assert not check.is_valid(table)

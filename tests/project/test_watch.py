@@ -73,7 +73,7 @@ def test_the_status_is_that_of_what_was_found_last(place: Path, judge: Judge, sa
     assert said[0].startswith("contactors PROVED, ")
 
 
-def test_a_file_that_is_saved_without_a_change_is_not_judged(
+def test_a_file_saved_without_a_change_is_not_judged(
     place: Path, asked: list[list[str]], judge: Judge, said: list[str]
 ) -> None:
     def save() -> None:
@@ -84,7 +84,7 @@ def test_a_file_that_is_saved_without_a_change_is_not_judged(
     assert status == 0 and len(asked) == 1 and said[0].startswith("nothing to judge again, ")
 
 
-def test_a_project_file_that_becomes_wrong_is_one_line_until_it_is_mended(
+def test_a_wrong_project_file_is_one_line_until_mended(
     place: Path, asked: list[list[str]], judge: Judge, said: list[str]
 ) -> None:
     def spoil() -> None:
@@ -98,9 +98,7 @@ def test_a_project_file_that_becomes_wrong_is_one_line_until_it_is_mended(
     assert len(asked) == 1
 
 
-def test_a_file_that_is_gone_is_said_and_read_again_when_it_is_back(
-    place: Path, judge: Judge, said: list[str]
-) -> None:
+def test_a_lost_file_is_said_and_read_when_back(place: Path, judge: Judge, said: list[str]) -> None:
     file = place / "plc/contactors.st"
     status, _ = watched(judge, said, file.unlink, lambda: write(place, plc__contactors_st=WRONG))
     assert status == 1 and "plc/contactors.st is not in" in said[0] and "REFUTED" in said[1]

@@ -223,3 +223,20 @@ def test_a_graph_that_lost_an_edge_is_no_basis(toy: Path, capsys: pytest.Capture
     assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet"]) == 2
     assert "OPEN_Lamp.txt: 1 edges are missing" in capsys.readouterr().err
     assert not yours(toy, "toyimpl_OPEN_Lamp").exists()
+
+
+def test_without_tlc_published_suites_still_judge(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MODEPROOF_JAVA", str(tmp_path / "no-java"))
+    given = ["conform", "sf_edm", "--builtin", "refimpl"]
+    assert main([*given, "--suite", "brief"]) == 0
+    assert "CONFORMS(exact, brief" in capsys.readouterr().out
+    for suite in (["--suite", "tour"], ["--suite", "brief", "--suite", "words"]):
+        assert main([*given, *suite]) == 2
+        said = capsys.readouterr().err
+        assert (
+            f"the suite {suite[-1]} has to be made, and " in said
+            and "--suite NAME of brief, refusals, sic" in said
+        )
