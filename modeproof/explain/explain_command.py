@@ -6,6 +6,7 @@ import argparse
 import shutil
 import sys
 import textwrap
+from pathlib import Path
 from typing import Any
 
 from modeproof.explain.cards import card, head
@@ -49,10 +50,18 @@ def run(args: argparse.Namespace) -> int:
         print(f"{len(found)} things have this name; `modeproof explain DOCUMENT/{word}` shows one of them")
         for thing in found:
             print(head(thing))
-        return EXIT_AS_EXPECTED
+        return _ended(place)
     width = min(shutil.get_terminal_size().columns, WIDTH) if sys.stdout.isatty() else WIDTH
     for number, thing in enumerate(found):
         print(("\n" if number else "") + text_of(thing, card(place, thing), max(width, 2 * LABEL)))
+    return _ended(place)
+
+
+def _ended(place: Path) -> int:
+    """Say where the files are, to whoever is not in their tree."""
+    here = Path.cwd()
+    if place != here and place not in here.parents:
+        print(f"\nfiles are below {place}")
     return EXIT_AS_EXPECTED
 
 
