@@ -91,6 +91,12 @@ def test_an_edit_that_a_property_reads_is_not_the_same() -> None:
         assert trial._same(trial.edited(edit)) == same
 
 
+def same(one: Any, other: Any) -> bool:
+    solver = z3.Solver()
+    solver.add(one != other)
+    return bool(solver.check() == z3.unsat)
+
+
 def test_a_lost_fact_may_hold_where_a_flag_is_off() -> None:
     """x follows y by a scan: once it was never true; now it is true only where y is, or not for long."""
     x, y, asked = z3.Bools("x y asked")
@@ -102,6 +108,7 @@ def test_a_lost_fact_may_hold_where_a_flag_is_off() -> None:
     never = z3.Not(x)
     assert machine_trial._kept(edited, [never]) == []
     found = machine_trial._weakened(edited, [never])
-    # z3 writes the parts of OR in the order in which it has met them, also in other tests
-    expected = {z3.simplify(lemma).sexpr() for lemma in (z3.Or(y, z3.Not(x)), yes)}
-    assert {z3.simplify(lemma).sexpr() for lemma in found} == expected
+    # z3 writes the parts of OR in the order in which it has met them, also in other tests: the meaning counts
+    wanted = [z3.Or(y, z3.Not(x)), yes]
+    assert all(any(same(lemma, other) for other in wanted) for lemma in found)
+    assert all(any(same(lemma, other) for lemma in found) for other in wanted)

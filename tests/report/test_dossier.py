@@ -13,7 +13,8 @@ import pytest
 from modeproof.cli import main
 from modeproof.report import build
 from modeproof.report.bearing import heaviest, worst
-from modeproof.report.build import css_string, make
+from modeproof.report.build import make
+from modeproof.report.environment import css_string
 from modeproof.report.filing import Filing, commit_of
 from modeproof.report.parts import functions, summary
 from modeproof.report.sources import DIFFERS, HOLE, Sources, gather

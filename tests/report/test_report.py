@@ -16,7 +16,7 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
-from modeproof.report import build, parts
+from modeproof.report import build, environment, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble, gather
@@ -109,7 +109,7 @@ def test_text_of_logs_and_adapters_is_escaped_everywhere(root: Path) -> None:
 
 
 def test_a_script_element_cannot_be_ended_by_data(root: Path) -> None:
-    assert "</script" not in str(build.script_json({"a": "</script><script>alert(1)"}))
+    assert "</script" not in str(environment.script_json({"a": "</script><script>alert(1)"}))
 
 
 def test_no_figure_is_typed_by_hand_in_a_template(real_root: Path) -> None:
@@ -420,7 +420,7 @@ def test_a_root_without_documents_is_one_line(
 
 
 def test_a_figure_without_a_value_is_shown_as_a_hole() -> None:
-    macros: Any = build._environment().get_template("macros.html.j2").module
+    macros: Any = environment.environment().get_template("macros.html.j2").module
     assert "not there" in macros.figure(Figure(None, "x")) and "not there" in macros.figure(None)
     assert 'data-source="a.json"' in macros.figure(Figure(1234, "a.json")) and "1,234" in macros.figure(
         Figure(1234, "a.json")

@@ -54,7 +54,7 @@ def test_without_brython_no_page_is_made(monkeypatch: pytest.MonkeyPatch) -> Non
         raise ModuleNotFoundError(name)
 
     monkeypatch.setattr("importlib.resources.files", gone)
-    with pytest.raises(Unjudged, match="Brython cannot be read: brython; run make venv"):
+    with pytest.raises(Unjudged, match="Brython cannot be read: brython; run `make venv`"):
         bundle.brython()
 
 
