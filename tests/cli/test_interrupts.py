@@ -63,7 +63,13 @@ def interrupted(place: Path, command: list[str], after_s: float) -> tuple[int, s
     """Exit status, output and errors of a command that gets Ctrl-C so long after its first line."""
     pipe = subprocess.PIPE
     running = subprocess.Popen(
-        command, cwd=place, stdout=pipe, stderr=pipe, text=True, start_new_session=True
+        command,
+        cwd=place,
+        env={**os.environ, "MODEPROOF_ROOT": str(place)},
+        stdout=pipe,
+        stderr=pipe,
+        text=True,
+        start_new_session=True,
     )
     assert running.stdout is not None
     first = running.stdout.readline()
