@@ -63,6 +63,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run(place: Path, command: str) -> subprocess.CompletedProcess[str]:
     env = {"PATH": os.environ["PATH"], "PYTHONDONTWRITEBYTECODE": "1", "HOME": str(place)}
+    env["MODEPROOF_ROOT"] = str(place)  # its modeproof is a link to ours
     return subprocess.run(
         ["bash", "-c", command], cwd=place, capture_output=True, text=True, env=env, check=False
     )
