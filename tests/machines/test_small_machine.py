@@ -246,7 +246,7 @@ def test_a_trial_counts_for_the_text_it_was_made_of(present: bool, folder: Path)
     [
         ("wiring", "Stop OR NOT safeguards_hold", "Stop", "REFUTED"),
         ("wiring", '"Stop OR NOT', '"Halt OR NOT', "UNJUDGED"),
-        ("safety", "Door AND Key", "Door AND Key OR TRUE", "SURVIVED"),
+        ("safety", "Door AND Key", "Door AND Key OR TRUE", "UNJUDGED"),
         ("safety", 'holds = "S_Drive"', 'holds = "S_Drive AND NOT Door"', "UNKNOWN"),
         ("safety", "Door AND Key", "Gate AND Key", "UNJUDGED"),
         ("killers", "closed", "shut", "SURVIVED"),

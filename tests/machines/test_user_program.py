@@ -163,6 +163,7 @@ def test_a_property_is_proved_of_the_program_by_hand(tmp_path: Path) -> None:
 
 
 @pytest.mark.deep
+@pytest.mark.long
 def test_a_value_that_leaves_its_type_proves_nothing(tmp_path: Path) -> None:
     path = edited(tmp_path, "oldMode := newMode;", "oldMode := newMode; scans := scans + 1;")
     path.write_text(path.read_text("utf-8").replace("oldMode : INT;", "oldMode, scans : INT;"), "utf-8")
