@@ -321,12 +321,13 @@ class Machine:
     def left_out(self) -> Iterator[Verdict]:
         """An output that no property is about, an input that nothing reads, if the file does not say why."""
         reasons = excused(self.every, self.wiring, strictly=not self.leave_out)
-        lost = {f"input {name}": "nothing reads it" for name in self.unread if name not in reasons}
+        lost = [(f"input {name}", "has an effect", "nothing reads it") for name in self.unread]
         outputs = unasked(self.wiring, self.watched, self.questions)
-        lost |= {f"output {name}": "no property is about it" for name in outputs if name not in reasons}
-        for id, how in lost.items():
-            row = {"hazard": "What it does, or should do, was not looked at.", "cites": []}
-            yield Verdict(Asked(id, f"{how[0].upper()}{how[1:]}.", id, None), row, "NOT ASKED", how)
+        lost += [(f"output {name}", "is in a question", "no property is about it") for name in outputs]
+        for id, sentence, how in lost:
+            if id.split()[1] not in reasons:
+                row = {"hazard": "What it does, or should do, was not looked at.", "cites": []}
+                yield Verdict(Asked(id, f"The {id} {sentence}.", id, None), row, "NOT ASKED", how)
 
     @property
     def unread(self) -> Iterator[str]:

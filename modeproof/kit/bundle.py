@@ -75,5 +75,5 @@ def not_published(suite: Suite) -> str:
         try:
             (known,) = Bundle.own().suites(suite.target, [suite.name], suite.relations[0])
         except Unjudged:
-            return "not published"
+            return "not published" if place.is_dir() else "of which this kit has no copy"
     return "" if same_rows(known, suite) else "not as published"

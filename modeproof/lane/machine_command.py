@@ -333,4 +333,4 @@ def _can_read() -> None:
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
-        raise Unjudged(f"a wiring cannot be read: {error}; {adding('', 'it')}") from None
+        raise Unjudged(f"a wiring cannot be read: {error}; {adding('', str(error.name))}") from None

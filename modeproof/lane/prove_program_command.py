@@ -134,4 +134,4 @@ def _look(args: argparse.Namespace) -> None:
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
-        raise Unjudged(f"programs cannot be read: {error}; {adding('', 'it')}") from None
+        raise Unjudged(f"programs cannot be read: {error}; {adding('', str(error.name))}") from None

@@ -12,7 +12,7 @@ from typing import Any
 from modeproof.graph.implementation import REFERENCE, load_implementation
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import adding
-from modeproof.trace.exact import Matched
+from modeproof.trace.exact import MOST_STATES, Matched
 from modeproof.trace.follow import NotFollowed
 from modeproof.trace.log import LONGEST_MS, Log, Row
 from modeproof.trace.log_judge import BY_REFERENCE, Judgement, compared
@@ -30,8 +30,10 @@ def judge_by_reference(target: Target, log: Log) -> tuple[Judgement, Why | None]
         raise Unjudged(f"{log.name}: nothing to compare: no line shows an output of {target.id}")
     device = target.only.device
     code = load_implementation(REFERENCE, target.document, device.id)
-    states = [code.start(device, target.forms, log.params[device.id])]
-    times = [0, 1, *(of.default for of in device.parameters.values() if of.type == "ms"), LONGEST_MS]
+    params = log.params[device.id]
+    states = [code.start(device, target.forms, params)]
+    limits = [params.get(of.name, of.default) for of in device.parameters.values() if of.type == "ms"]
+    times = dict.fromkeys([0, 1, *limits, LONGEST_MS])
     followed = NotFollowed("TLC, which makes the graph, is not installed")
     open_since: Row | None = None
     for number, row in enumerate(log.rows):
@@ -55,9 +57,9 @@ def judge_by_reference(target: Target, log: Log) -> tuple[Judgement, Why | None]
         if not after and open_since is None:
             found = Judgement(log, followed, Matched(number, ()), share, BY_REFERENCE)
             return found, _why(target, states[0], row, wrong)
-        if wrong and open_since is not None:  # another time may have led elsewhere
-            raise _open(log, open_since, ["the time"])
         states = list(dict.fromkeys(after))
+        if open_since is not None and (wrong or len(states) > MOST_STATES):  # another time may lead elsewhere
+            raise _open(log, open_since, ["the time"])
         if len(states) == 1:  # whatever the time was
             open_since = None
     return Judgement(log, followed, Matched(len(log.rows), ()), share, BY_REFERENCE), None

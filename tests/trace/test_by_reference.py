@@ -69,3 +69,11 @@ def test_an_open_time_that_decides_is_refused(tmp_path: Path, capsys: pytest.Cap
     log.write_text("\n".join([*lines[:38], json.dumps(row), *lines[39:]]) + "\n")
     assert main(["trace", "fplc", str(log)]) == 2
     assert "line 39 leaves the time open" in capsys.readouterr().err
+
+
+def test_too_many_ways_of_an_open_time_are_refused(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("modeproof.trace.by_reference.MOST_STATES", 0)
+    assert main(["trace", "fplc", str(LOGS / "fplc_good.csv")]) == 2
+    assert "leaves the time open" in capsys.readouterr().err
