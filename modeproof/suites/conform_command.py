@@ -159,6 +159,7 @@ def _write_yours(
             *([f"--hold {args.hold}"] if args.hold else []),
             *([f"--slow {args.slow}"] if args.slow != 1 else []),
             *(["--codes"] if args.codes else []),
+            *(["--same"] if args.same else []),
             *(f"--profile {name}" for name in profile),
         ]
     )
