@@ -10,7 +10,6 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Container, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ from modeproof.kit.machine_reference import program_of
 from modeproof.kit.profile import ALL, LETTER, PROFILES, OfProfile, of_profile
 from modeproof.kit.relation import read_hello
 from modeproof.kit.resume import Resume, identity
-from modeproof.kit.suite_judge import Difference, Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Difference, Options, Plan, Verdict
 from modeproof.kit.text import (
     as_junit,
     as_record,
@@ -37,7 +36,8 @@ from modeproof.kit.text import (
     write_json,
     write_text,
 )
-from modeproof.kit.vectors import DEMANDS, EXACT, FILE_NAME, MONITOR, SETTLED, Suite, open_suite
+from modeproof.kit.two_answers import judge_both
+from modeproof.kit.vectors import EXACT, FILE_NAME, MONITOR, SETTLED, Suite, open_suite
 
 TEST_RIG = "--i-know-this-is-a-test-rig"
 
@@ -327,23 +327,17 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
     def first(found: Difference) -> None:
         tell(joined(["first difference:", *difference_lines(found, suite, way=False)]))
 
-    page = None
-    if suite.header.get(DEMANDS) is not None and MONITOR in suite.relations and args.relation != MONITOR:
-        asked = replace(plan, options=replace(plan.options, relation=MONITOR), skip=())
-        told = _now_and_then(progress)
-        page = run_suite(suite, starter(args, suite), plan=asked, on_progress=told, on_difference=first)
-        if page.interrupted:
-            return page
-    verdict = run_suite(
+    verdict = judge_both(
         suite,
         starter(args, suite),
-        plan=plan,
+        plan,
+        args.same,
+        page={"on_progress": _now_and_then(progress), "on_difference": first},
         on_progress=_now_and_then(progress),
         on_difference=first,
         on_passed=resume.note if resume is not None else None,
         on_hello=resume.hello if resume is not None else None,
     )
-    verdict.page, verdict.same = page, args.same
     if resume is not None and (verdict.cases or verdict.differences):
         resume.write()
     return verdict
