@@ -172,7 +172,7 @@ FAULTS_FPLC = {
     "there is no check before steps 11 and 12": {"LevelWithAKey"},
     "no time is watched": {"PulseInTime"},
     "two outputs are ignored": {"TwoOutputsAreAFault"},
-    "no key is needed": {"RemovalClearsTheLevel", "TwoOutputsAreAFault", "ModeWithLA", "EchoWithAKey"},
+    "no key is needed": {"RemovalClearsTheLevel", "TwoOutputsAreAFault", "ModeWithAKey", "EchoWithAKey"},
     "no level limits the selection": {"EchoWithinTheLevel"},
     "a selection above the level is waited out": {"AboveTheLevelIsAFault"},
     "any word is a selection": {"EchoIsASelection"},
