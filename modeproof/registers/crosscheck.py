@@ -200,9 +200,6 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(
                 file, finding.id, "names no evidence, and `evidence_open` does not say what is open"
             )
-        if (finding.severity == "hazard") != (len(finding.readings) == 1):
-            text = f"{len(finding.readings)} readings and class {finding.severity}; a hazard of the text as "
-            yield Problem(file, finding.id, text + "it stands has one reading, any other finding has more")
         if match := PROMISE.search(finding.evidence_open):
             yield Problem(
                 file, finding.id, _promise("evidence_open", match.group(), "why no model can show it")
