@@ -30,7 +30,7 @@ from modeproof.kit.vectors import Suite, open_suite
 from modeproof.registers.load import load_interface
 from modeproof.registers.runs import Run, load_runs
 from modeproof.s7 import program as s7
-from modeproof.suites.contract import declare_parameters
+from modeproof.suites.demands import declare_parameters
 from modeproof.tlc.messages import LogReader
 from tests.s7.server import STEPPED, Plc
 

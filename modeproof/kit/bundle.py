@@ -15,6 +15,8 @@ from modeproof.kit.vectors import FILE_NAME, Suite, open_suite, same_rows
 FOLDER = "vectors"
 CONTENTS = "contents.json"
 """The list in the folder: what is inside, and what was left out."""
+DEMANDS = "demands.json"
+"""In the folder: of each target what its document demands, and what the clauses say in our words."""
 FAST = "fast"
 
 
@@ -60,7 +62,17 @@ class Bundle:
             raise Unjudged(f"suite {missing[0]} is not inside{why}")
         if not chosen:
             raise Unjudged(f"no suite of {target} is for relation {relation}")
-        return chosen
+        return self.demanding(chosen)
+
+    def demanding(self, suites: Sequence[Suite]) -> list[Suite]:
+        """The suites with what is demanded of their targets. Raises Unjudged where there is no list of it."""
+        try:
+            with zipfile.ZipFile(self.place) as archive:
+                known = json.loads(archive.read(f"{FOLDER}/{DEMANDS}"))
+            rows = [(suite, known.get(suite.target, {})) for suite in suites]
+            return [suite.demanding(row.get("demands"), row.get("texts")) for suite, row in rows]
+        except (OSError, KeyError, ValueError, AttributeError, zipfile.BadZipFile) as error:
+            raise Unjudged(f"{self.place.name}: no demands inside: {error}") from None
 
 
 def not_published(suite: Suite) -> str:

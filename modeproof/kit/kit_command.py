@@ -164,6 +164,8 @@ def run_kit(args: argparse.Namespace) -> int:
     try:
         if args.vectors is not None:
             suites = open_vectors(args)
+            with contextlib.suppress(Unjudged):  # vectors alone have no demands
+                suites = Bundle.own().demanding(suites)
         else:
             suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
         verdicts = judge(args, in_profile(args, suites))

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
-from modeproof.kit.contract import Property, Watch
+from modeproof.kit.demands import Demand, Watch
 from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.signals import shown
 from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
@@ -73,7 +73,7 @@ class Failure:
     got: Mapping[str, Any]
     when: str = ""
     after: int = 0
-    broken: Property | None = None
+    broken: Demand | None = None
     since: int | None = None
 
     @property
@@ -104,16 +104,16 @@ class Session:
             why = ", or its values are ours alone (--codes compares those)" if left_out else ""
             raise Unjudged(f"every output is unobserved{why}, so nothing can be compared")
         self.watch: Watch | None = None
-        contract = suite.contract() if options.relation != EXACT else None
-        if contract is not None:
-            self.watch = Watch(contract, self.latency, hidden)
+        demands = suite.demands() if options.relation != EXACT else None
+        if demands is not None:
+            self.watch = Watch(demands, self.latency, hidden)
         if options.relation == MONITOR and self.latency and SETTLED not in suite.relations:
             raise Unjudged(
                 f"suite {suite.name} changes inputs in every scan, and the program may need {self.latency} "
-                "scans for each, so its properties would say nothing: use a suite that holds inputs (sic)"
+                "scans for each, so what is demanded would say nothing: use a suite that holds inputs (sic)"
             )
         if options.relation == MONITOR and (self.watch is None or not self.watch.judged):
-            raise Unjudged("no safety property can be judged on the outputs that are compared")
+            raise Unjudged("nothing is demanded of the outputs that are compared")
         self.scans = 0
         self._good: set[bytes] = set()
         self._kept: dict[int, Any] = {}
@@ -327,7 +327,7 @@ class Session:
         return None
 
     def _broken(
-        self, at: int, broken: Property, wanted: Mapping[str, Any], out: Mapping[str, Any], after: int
+        self, at: int, broken: Demand, wanted: Mapping[str, Any], out: Mapping[str, Any], after: int
     ) -> Failure:
         names = [name for name in self.compared if name in broken.outputs and out[name] != wanted[name]]
         names = names or [name for name in self.compared if name in broken.outputs]

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from modeproof.kit.adapter import Program
 from modeproof.kit.builtin import reference
-from modeproof.kit.contract import Watch
+from modeproof.kit.demands import Watch
 from modeproof.kit.diagnosis import timing
 from modeproof.kit.errors import Unjudged, suggestion
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
@@ -240,7 +240,7 @@ class _Run:
             verdict.latency = session.latency
             if session.watch is not None:
                 verdict.unjudged = session.watch.unjudged
-                self.watch = Watch(session.watch.contract, 0, session.hidden)
+                self.watch = Watch(session.watch.demands, 0, session.hidden)
 
     def _account(self, session: Session | None) -> None:
         if session is None or session.watch is None:

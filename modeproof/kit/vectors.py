@@ -21,12 +21,12 @@ import json
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
 from modeproof.kit.compact import expand
-from modeproof.kit.contract import Contract, read_contract
+from modeproof.kit.demands import Demands, read_demands
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.ids import case_id as case_id
 from modeproof.kit.ids import id_of_text as id_of_text
@@ -41,6 +41,8 @@ COMPACT = ".compact"
 """The suffix of a member of an archive that is in the form of modeproof.kit.compact."""
 FILE_NAME = "{suite}.jsonl.gz"
 """How the file of a suite is called in the folder of its target."""
+DEMANDS = "demands"
+"""In the header of an open suite: what the document demands, where that is known. It is in no file."""
 WIRING = "wiring"
 """In the header of vectors of a whole machine: how its blocks are wired, from which the reference is made."""
 LONGEST_LINE = 1 << 26
@@ -180,13 +182,17 @@ class Suite:
             reset=row.get("reset", True),
         )
 
-    def contract(self) -> Contract | None:
-        """The safety properties of the target, where the header has them. Raises Unjudged."""
-        table = self.header.get("contract")
+    def demands(self) -> Demands | None:
+        """What the document demands of the target, where that is known. Raises Unjudged."""
+        table = self.header.get(DEMANDS)
         if table is None:
             return None
-        place = f"{self.path.name}: contract"
-        return read_contract(table, self.inputs, self.outputs, self.parameters, place)
+        return read_demands(table, self.inputs, self.outputs, self.parameters, f"{self.target}: demands")
+
+    def demanding(self, table: Mapping[str, Any] | None, texts: Mapping[str, str] | None = None) -> Suite:
+        """The suite with what the document demands; it is no part of a vector file. `texts` are added."""
+        header = {**self.header, "texts": {**self.header.get("texts", {}), **(texts or {})}}
+        return replace(self, header=header if table is None else {**header, DEMANDS: table})
 
     @property
     def codes(self) -> tuple[str, ...]:

@@ -101,7 +101,7 @@ def say(record: Record, progress: Progress) -> None:
 
 def _one(place: Path, run: Run, inputs: Mapping[str, str]) -> dict[str, Any]:
     from modeproof.graph.export import export_file
-    from modeproof.suites.conform_command import compared, comparison_record
+    from modeproof.suites.builtin_comparison import compared, comparison_record
 
     evidence.discard(place, run.document, f"{REFERENCE}_{run.id}")
     export_file(place, run.document, run.id).unlink(missing_ok=True)

@@ -32,7 +32,7 @@ from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.vector_files import ROOM, unfit
 from modeproof.simulate.recorded import record, unrecorded
 from modeproof.suites.build import make_graphs, published, ready_suite, suite_file
-from modeproof.suites.conform_command import compare_run, difference_text
+from modeproof.suites.builtin_comparison import compare_run, difference_text
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.publish import publish
 from modeproof.suites.write import NoCases

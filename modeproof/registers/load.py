@@ -10,6 +10,7 @@ import msgspec
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
+from modeproof.registers.demands import as_properties, load_demand_rows
 from modeproof.registers.files import read_toml
 from modeproof.registers.rows import (
     About,
@@ -50,15 +51,19 @@ def load_document(root: Path, name: str) -> Document:
     assumed = read_register(root, name, "assumptions", "assumption", "fault", "faults")
     at_faults = f"spec/{name}/assumptions.toml"
     faults = typed(Faults, assumed.get("faults", {}), f"{at_faults}: [faults]")
+    interface, demands = load_interface(root, name), load_demand_rows(root, name)
     return Document(
         root=root,
         name=name,
         about=about,
         clauses=clauses,
-        interface=load_interface(root, name),
-        properties=tuple(
-            prop if prop.tla else msgspec.structs.replace(prop, tla=prop.id)
-            for prop in _rows(root, name, "properties", "property", Property, *TIMES)
+        interface=interface,
+        properties=(
+            *(
+                prop if prop.tla else msgspec.structs.replace(prop, tla=prop.id)
+                for prop in _rows(root, name, "properties", "property", Property, *TIMES)
+            ),
+            *as_properties(root, name, demands, interface),
         ),
         findings=load_findings(root, name),
         assumptions=typed_rows(Assumption, at_faults, assumed, "assumption"),

@@ -33,7 +33,7 @@ from modeproof.registers.tla import read_modules
 
 ROOM = "vectors"
 SUMS = "SHA256SUMS"
-DECIDING = ("interface", "contracts", "sequences", "replay")
+DECIDING = ("interface", "sequences", "replay")
 """Registers of a document that decide what a vector holds. Others give its sentences."""
 WIRED = ("wiring.toml", "use.toml")
 """Files of a machine that decide it, besides the code of its reference and of the blocks."""

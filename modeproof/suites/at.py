@@ -33,7 +33,7 @@ from modeproof.registers.made import cfg_text
 from modeproof.registers.replay import load_targets
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.suites.contract import declare_parameters
+from modeproof.suites.demands import declare_parameters
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import find_toolchain
 

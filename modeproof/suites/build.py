@@ -21,7 +21,6 @@ from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.registers.vector_files import made_from, step_citations
 from modeproof.suites.at import every_pair
-from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
 from modeproof.tlc.rests import why_stale
@@ -85,13 +84,11 @@ def ready_suite(
     devices = [load_device_graph(place, run) for run in runs]
     if suite in SUITES and SUITES[suite].pairs:
         devices += every_pair(place, document, devices, on_built)
-    contract = load_contract(place, document, devices[0].device, list(devices[0].forms.modes))
     stats = write_suite(
         path,
         suite,
         devices,
         citations=citations_of(place, document, target),
-        contract=contract,
         texts=document_texts(place, document),
     )
     write_whole(known, made_with.encode())

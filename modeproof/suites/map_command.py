@@ -16,7 +16,7 @@ from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.s7.map import proposed_map, read_map
 from modeproof.suites.build import find_target
-from modeproof.suites.contract import declare, declare_parameters
+from modeproof.suites.demands import declare, declare_parameters
 
 
 def add_parser(commands: Any) -> None:

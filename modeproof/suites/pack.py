@@ -19,11 +19,13 @@ from modeproof import kit, s7
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.builtin import REFERENCE
-from modeproof.kit.bundle import CONTENTS, FOLDER
+from modeproof.kit.bundle import CONTENTS, DEMANDS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
+from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import of_machine, published_files, suite_name
-from modeproof.suites.build import suite_file
+from modeproof.suites.build import document_texts, suite_file
+from modeproof.suites.demands import load_demands
 from modeproof.suites.kinds import SUITES
 
 LARGEST = 5_000_000
@@ -66,6 +68,8 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
             inside[name] = _inside(file, target, name, members)
         contents["targets"][target] = inside
         contents["left_out"][target] = outside
+    demanded = {target: _demanded(place, document, target) for target, document in sorted(targets.items())}
+    members[f"{FOLDER}/{DEMANDS}"] = json.dumps(demanded, sort_keys=True).encode()
     for file in published_files(place):
         if of_machine(file):
             target, name = file.parent.name, suite_name(file)
@@ -74,6 +78,15 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
     members[f"{FOLDER}/{CONTENTS}"] = json.dumps(contents, indent=1, sort_keys=True).encode()
     _write(path, members)
     return contents
+
+
+def _demanded(place: Path, document: str, target: str) -> dict[str, Any]:
+    """What a document demands of a target, and what the clauses say in our words."""
+    table = load_demands(place, document, load_interface(place, document).devices[target])
+    if table is None:
+        return {}
+    texts, cited = document_texts(place, document), {id for row in table["demands"] for id in row["clauses"]}
+    return {"demands": table, "texts": {id: texts[id] for id in sorted(cited & texts.keys())}}
 
 
 def _inside(file: Path, target: str, name: str, members: dict[str, bytes]) -> dict[str, Any]:

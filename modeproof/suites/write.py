@@ -13,10 +13,10 @@ from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.evidence.files import write_lines
-from modeproof.kit.vectors import KIND, MONITOR, VERSION, id_of_text
+from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.profiles import profiles_of
 from modeproof.registers.rows import Device
-from modeproof.suites.contract import declare, declare_parameters
+from modeproof.suites.demands import declare, declare_parameters
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.rows import Pieces, Rows, changed
 from modeproof.suites.script import Script
@@ -66,14 +66,12 @@ def write_suite(
     devices: Sequence[DeviceGraph],
     *,
     citations: Citations = no_citations,
-    contract: Mapping[str, Any] | None = None,
     texts: Mapping[str, str] | None = None,
 ) -> Stats:
     """Build a suite of `SUITES` from all graphs of one target and write it as a whole or not at all.
 
-    `contract` is what `load_contract` says of the target, `texts` what clauses and findings say in our words.
-    Raises Unjudged when the graphs belong to several targets, when the walks do not cover what they must, or
-    when the file cannot be written.
+    `texts` is what clauses and findings say in our words. Raises Unjudged when the graphs belong to several
+    targets, when the walks do not cover what they must, or when the file cannot be written.
     """
     if suite not in SUITES:
         raise Unjudged(f"no suite {suite!r}; {suggestion(suite, SUITES)}")
@@ -85,7 +83,7 @@ def write_suite(
         writer.add(number, device)
     if not writer.cases:
         raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
-    header = writer.header(contract)
+    header = writer.header()
     header["texts"] = _cited_texts(header, texts or {})
     write_lines(path, [_line(header), *writer.cases])
     return writer.stats()
@@ -205,11 +203,10 @@ class _Writer:
             findings.update(of_step[1])
         return sorted(clauses), sorted(findings)
 
-    def header(self, contract: Mapping[str, Any] | None) -> dict[str, Any]:
+    def header(self) -> dict[str, Any]:
         device = self.device.device
         modes = list(self.device.forms.modes)
         kind = self.kind
-        relations = [relation for relation in kind.relations if relation != MONITOR or contract]
         return {
             "kind": KIND,
             "version": VERSION,
@@ -217,7 +214,7 @@ class _Writer:
             "document": self.device.document,
             "protocol": 1,
             "suite": self.suite,
-            "relations": relations,
+            "relations": list(kind.relations),
             "pace": "fast" if kind.fast else "slow",
             "counted_by": kind.counted_by,
             "shrink": "graph" if all("ways" in graph for graph in self.graphs) else "prefix",
@@ -236,7 +233,6 @@ class _Writer:
             "parameters": declare_parameters(device, modes),
             **({"profiles": profiles} if (profiles := profiles_of(device)) else {}),
             "steps": self._steps(device),
-            **({"contract": contract} if contract else {}),
             "graphs": self.graphs,
         }
 
@@ -275,10 +271,8 @@ def _codes(names: Sequence[str]) -> str:
 
 
 def _cited_texts(header: Mapping[str, Any], texts: Mapping[str, str]) -> dict[str, str]:
-    """What is said of everything that the steps and the contract cite."""
+    """What is said of everything that the steps cite."""
     cited = {id for step in header["steps"] for id in (*step["clauses"], *step["findings"])}
-    for row in header.get("contract", {}).get("properties", []):
-        cited.update(row["clauses"])
     return {id: texts[id] for id in sorted(cited) if id in texts}
 
 

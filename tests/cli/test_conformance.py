@@ -15,7 +15,7 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.progress import Progress
 from modeproof.lane import conformance
-from modeproof.suites import conform_command as command
+from modeproof.suites import builtin_comparison as command
 from tests.toy_tree import toy_tree
 
 

@@ -10,6 +10,8 @@ import pytest
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite, open_suite
+from modeproof.registers.load import load_interface
+from modeproof.suites.demands import load_demands
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "examples/c"
@@ -33,7 +35,8 @@ def made(folder: Path, old: str = "", new: str = "", hello: tuple[str, str] = ("
 
 @pytest.fixture(scope="module")
 def suite() -> Suite:
-    return open_suite(VECTORS)
+    device = load_interface(ROOT, "mode_selection").devices["fplc"]
+    return open_suite(VECTORS).demanding(load_demands(ROOT, "mode_selection", device))
 
 
 @pytest.fixture(scope="module")

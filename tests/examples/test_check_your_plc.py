@@ -31,6 +31,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     work.mkdir()
     packed = suite_file(tmp_path / "place", "mode_selection", "fplc", "brief")
     packed.parent.mkdir(parents=True)
+    (tmp_path / "place" / "spec").symlink_to(ROOT / "spec")
     shutil.copyfile(ROOT / "vectors" / "fplc" / "brief.jsonl.gz", packed)
     monkeypatch.setattr(packing, "SUITES", {"brief": packing.SUITES["brief"]})
     packing.pack(tmp_path / "place", {"fplc": "mode_selection"}, work / packing.NAME)

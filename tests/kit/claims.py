@@ -190,14 +190,14 @@ def a_difference_names_the_last_step_that_moves_the_output(kit: Kit) -> None:
 def outputs_that_are_not_seen_cover_nothing(kit: Kit) -> None:
     cases = [case([(0, True, True), (0, True, True), (0, True, True), (0, False, True)])]
     blind = lambda: Spoiled({}, unobserved=["B"])  # noqa: E731
-    verdict = kit.run(suite(cases, contract=None), blind)
+    verdict = kit.run(suite(cases, demands=None), blind)
     assert verdict.covered["Fire"] == (0, 1) and verdict.covered["Arm"] == verdict.covered["Hold"] == (1, 1)
     assert verdict.covered["Lower"] == (1, 2)
     assert verdict.unobserved == ("B",) and verdict.not_compared == ("CODE",) and verdict.outputs == (1, 2)
     blind = lambda: Spoiled({}, unobserved=["A", "B"])  # noqa: E731
-    verdict = kit.run(suite(cases, contract=None), blind, codes=True)
+    verdict = kit.run(suite(cases, demands=None), blind, codes=True)
     assert (verdict.word, verdict.ids[cases[0].id]) == ("CONFORMS", "passed") and verdict.outputs == (1, 3)
-    quiet = suite([case([(0, False, True), (0, False, True)])], contract=None)
+    quiet = suite([case([(0, False, True), (0, False, True)])], demands=None)
     assert kit.run(quiet, blind, codes=True).ids == {quiet.given[0].id: "passed"}
     verdict = kit.run(quiet, blind)
     assert (
@@ -207,18 +207,18 @@ def outputs_that_are_not_seen_cover_nothing(kit: Kit) -> None:
 
 def a_column_counts_where_the_suite_says_so(kit: Kit) -> None:
     cases = [case([(0, False, True), (0, True, True), (0, False, True), (0, True, True)])]
-    by_state = kit.run(suite(cases, contract=None), Program).covered
-    by_column = kit.run(suite(cases, contract=None, counted_by="column"), Program).covered
+    by_state = kit.run(suite(cases, demands=None), Program).covered
+    by_column = kit.run(suite(cases, demands=None, counted_by="column"), Program).covered
     assert (by_state["Release"], by_column["Release"]) == ((1, 1), (1, 1))
     spent = [case([(0, True, True), (0, True, True), (500, True, True), (0, True, True), (0, False, True)])]
-    assert kit.run(suite(spent, contract=None), Program).covered["Stay"] == (1, 2)
+    assert kit.run(suite(spent, demands=None), Program).covered["Stay"] == (1, 2)
     both = [
         replace(one, scans=(*one.scans[:-1], replace(one.scans[-1], column=n)))
         for n, one in enumerate(spent * 2)
     ]
     both = [replace(one, id=f"c-{n}") for n, one in enumerate(both)]
-    assert kit.run(suite(both, contract=None), Program).covered["Release"] == (1, 1)
-    assert kit.run(suite(both, contract=None, counted_by="column"), Program).covered["Release"] == (2, 1)
+    assert kit.run(suite(both, demands=None), Program).covered["Release"] == (1, 1)
+    assert kit.run(suite(both, demands=None, counted_by="column"), Program).covered["Release"] == (2, 1)
 
 
 # ---------------------------------------------------------------------------------------- safety properties
@@ -244,7 +244,7 @@ def a_property_that_fails_is_named_with_what_it_rests_on(kit: Kit) -> None:
 
 def a_property_is_shown_with_its_own_outputs_alone(kit: Kit) -> None:
     never = {"id": "P", "says": "", "clauses": [], "when": "True", "holds": "A"}
-    of = suite([case([(0, True, True)])], ["monitor"], {"constants": {}, "rules": [], "properties": [never]})
+    of = suite([case([(0, True, True)])], ["monitor"], {"constants": {}, "rules": [], "demands": [never]})
     (found,) = kit.run(of, lambda: Spoiled({(1, "A"): False, (1, "B"): True}), "monitor").differences
     assert (found.expected, found.got) == ({"A": True}, {"A": False})
 
@@ -267,7 +267,7 @@ def where_nothing_differs_what_the_property_rests_on_is_shown(kit: Kit) -> None:
     never = {
         "constants": {},
         "rules": [],
-        "properties": [{"id": "P", "says": "", "clauses": [], "when": "A", "holds": "B"}],
+        "demands": [{"id": "P", "says": "", "clauses": [], "when": "A", "holds": "B"}],
     }
     of = suite([case([(0, True, True)])], ["monitor"], never)
     (found,) = kit.run(of, Program, "monitor").differences
@@ -296,9 +296,9 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["A"]), "monitor")
     assert verdict.word == "CONFORMS" and verdict.unjudged == ("AFirst", "BLasts")
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["B"]), "monitor")
-    assert "no safety property can be judged" in verdict.reason
-    verdict = kit.run(replace(of, header={**of.header, "contract": None}), Program, "monitor")
-    assert "no safety property can be judged" in verdict.reason
+    assert "nothing is demanded of the outputs" in verdict.reason
+    verdict = kit.run(replace(of, header={**of.header, "demands": None}), Program, "monitor")
+    assert "nothing is demanded of the outputs" in verdict.reason
     lowered = case([(0, True, True), (0, True, True), (0, False, True)])
     stuck = {(n, "B"): False for n in range(3, 9)}
     verdict = kit.run(suite([lowered], ["monitor"]), lambda: Spoiled(stuck), "monitor")

@@ -11,10 +11,10 @@ from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
 
-CONTRACT = {
+DEMANDS = {
     "constants": {"CODE": 0x0FF0},
     "rules": [{"name": "codes", "kind": "recent", "is": "press and word == CODE"}],
-    "properties": [
+    "demands": [
         {
             "id": "LightNeedsCode",
             "says": "The lamp goes on only with its code.",
@@ -109,10 +109,10 @@ class Late(Lamp):
 def made(
     folder: Path,
     name: str,
-    contract: Mapping[str, Any] | None = CONTRACT,
+    demands: Mapping[str, Any] | None = DEMANDS,
     graph: Callable[[Path], DeviceGraph] = lamp_graph,
 ) -> Suite:
-    """A suite of the lamp, with its contract."""
+    """A suite of the lamp, with its demands."""
     path = folder / f"{name}.jsonl.gz"
-    write_suite(path, name, [graph(folder)], citations=lambda step: (("TOY-1",), ()), contract=contract)
-    return open_suite(path)
+    write_suite(path, name, [graph(folder)], citations=lambda step: (("TOY-1",), ()))
+    return open_suite(path).demanding(demands)

@@ -26,10 +26,10 @@ ROWS = {
     LOWERED: {"A": False, "B": True, "CODE": "0003"},
     SPENT: {"A": False, "B": False, "CODE": "0004"},
 }
-CONTRACT = {
+DEMANDS = {
     "constants": {},
     "rules": [{"name": "asked", "kind": "recent", "is": "go"}],
-    "properties": [
+    "demands": [
         {
             "id": "BNeedsGo",
             "says": "B.",
@@ -156,13 +156,13 @@ def requested(of: Case, at: int, request: str = "?") -> Case:
 def suite(
     cases: Sequence[Case],
     relations: Sequence[str] = ("exact", "monitor"),
-    contract: Mapping[str, Any] | None = CONTRACT,
+    demands: Mapping[str, Any] | None = DEMANDS,
     **header: Any,
 ) -> Given:
     """A suite of these cases."""
     head = {"graphs": [{"params": {}, "initial": OFF, "views": [f'"{n}"' for n in range(5)]}], **header}
-    if contract is not None:
-        head["contract"] = contract
+    if demands is not None:
+        head["demands"] = demands
     return Given(
         path=Path("stages.jsonl"),
         header=head,

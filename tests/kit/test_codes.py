@@ -28,13 +28,13 @@ from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.write import write_suite
 from tests.graph.printed import Inputs, Memory, Outputs, Params, lamp, lamp_graph, power_up, step
-from tests.kit.lamps import CONTRACT, Lamp, Slow, made
+from tests.kit.lamps import DEMANDS, Lamp, Slow, made
 from tests.kit.programs import program
 
 CODES = "MW"
 ON_THE_CODE = {
-    **CONTRACT,
-    "properties": [{**CONTRACT["properties"][0], "holds": "MW == CODE"}],  # type: ignore[index]
+    **DEMANDS,
+    "demands": [{**DEMANDS["demands"][0], "holds": "MW == CODE"}],  # type: ignore[index]
 }
 
 
@@ -127,7 +127,7 @@ def test_a_safety_property_that_needs_codes_is_named_not_judged(tmp_path: Path) 
     verdict = judged(suite, Slow, "settled")
     assert (verdict.word, verdict.unjudged) == ("CONFORMS", ("LightNeedsCode",))
     assert "not compared, so not judged: LightNeedsCode" in as_text(verdict)
-    assert "no safety property can be judged" in judged(suite, SlowOwnCodes, "monitor").reason
+    assert "nothing is demanded of the outputs" in judged(suite, SlowOwnCodes, "monitor").reason
     assert judged(suite, SlowOwnCodes, "monitor", codes=True).word == "DIFFERS"
 
 

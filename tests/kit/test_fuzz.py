@@ -17,7 +17,7 @@ from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
-from tests.kit.lamps import CONTRACT, Lamp
+from tests.kit.lamps import Lamp
 
 HELLO = {"ok": True, "name": "x", "version": "1", "time": "virtual", "relations": ["exact"]}
 
@@ -67,7 +67,7 @@ def suite(tmp_path_factory: pytest.TempPathFactory) -> Suite:
 @pytest.fixture(scope="module")
 def sic(tmp_path_factory: pytest.TempPathFactory) -> Suite:
     folder = tmp_path_factory.mktemp("fuzz_sic")
-    write_suite(folder / "sic.jsonl", "sic", [lamp_graph(folder)], contract=CONTRACT)
+    write_suite(folder / "sic.jsonl", "sic", [lamp_graph(folder)])
     return open_suite(folder / "sic.jsonl")
 
 

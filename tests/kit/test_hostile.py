@@ -33,7 +33,7 @@ from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.any_machine import PATIENCE_S, until
 from tests.graph.printed import lamp_graph
-from tests.kit.lamps import CONTRACT, Lamp
+from tests.kit.lamps import Lamp
 from tests.kit.programs import IMPATIENT_S, PATIENT_S, program, starter
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\u202e\ud800\r\nCONFORMS(exact, brief)"
@@ -42,7 +42,7 @@ EVIL = "\x1b]0;owned\x07\x1b[2J\u202e\ud800\r\nCONFORMS(exact, brief)"
 @pytest.fixture
 def suite(tmp_path: Path) -> Suite:
     graph = lamp_graph(tmp_path)
-    write_suite(tmp_path / "tour.jsonl", "tour", [graph], contract=CONTRACT)
+    write_suite(tmp_path / "tour.jsonl", "tour", [graph])
     return open_suite(tmp_path / "tour.jsonl")
 
 

@@ -48,7 +48,7 @@ def deaf(monkeypatch: pytest.MonkeyPatch) -> str:
     return "deaf"
 
 
-@pytest.mark.parametrize(("name", "relation"), [("brief", "exact"), ("sic", "settled"), ("sic", "monitor")])
+@pytest.mark.parametrize(("name", "relation"), [("brief", "exact"), ("sic", "settled")])
 def test_a_machines_own_parameters_are_judged_in_every_relation(
     name: str, relation: str, deaf: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -57,22 +57,18 @@ def test_a_machines_own_parameters_are_judged_in_every_relation(
     assert kit_main(conform(name, "refimpl", *more)) == 0
     told = capsys.readouterr().out
     hidden = "not compared: SafetyDemand, ResetRequest, DiagCode"
-    put = (
-        "; 9 of 10 properties put to the program" if relation == "monitor" else ""
-    )  # one is of the other profile
-    word = f"CONFORMS({relation}, {name}; profile letter; {hidden}; with {own}{put})"
+    word = f"CONFORMS({relation}, {name}; profile letter; {hidden}; with {own})"
     assert told.endswith(f"{word}\n") and "transitions" not in told and "covered" not in told
     assert ("a limit may lie between two scans" in told) == (relation != "exact")
     assert kit_main(conform(name, deaf, "--relation", relation)) == 0, "the suite's own time is right"
-    if relation != "monitor":
-        capsys.readouterr()
-        assert kit_main(conform(name, deaf, *more)) == 1
-        again = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("again:"))
-        words = shlex.split(again)
-        assert "--param" in words and own in words
-        tail = words[words.index("--case") :]
-        assert kit_main([*conform(name, deaf, *more), *tail]) == 1
-        assert kit_main([*conform(name, "refimpl", *more), *tail]) == 0
+    capsys.readouterr()
+    assert kit_main(conform(name, deaf, *more)) == 1
+    again = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("again:"))
+    words = shlex.split(again)
+    assert "--param" in words and own in words
+    tail = words[words.index("--case") :]
+    assert kit_main([*conform(name, deaf, *more), *tail]) == 1
+    assert kit_main([*conform(name, "refimpl", *more), *tail]) == 0
 
 
 @pytest.mark.parametrize(

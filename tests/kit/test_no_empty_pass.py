@@ -18,13 +18,13 @@ from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Case, Suite, read_lines
-from tests.kit.lamps import CONTRACT, Lamp, Slow, SlowAndWrong, made
+from tests.kit.lamps import DEMANDS, Lamp, Slow, SlowAndWrong, made
 from tests.kit.programs import program
 
 TWO_RULES = {
-    **CONTRACT,
-    "properties": [
-        *CONTRACT["properties"],  # type: ignore[misc]
+    **DEMANDS,
+    "demands": [
+        *DEMANDS["demands"],  # type: ignore[misc]
         {"id": "Always", "says": "x", "clauses": [], "when": "True", "holds": "True"},
     ],
 }
@@ -55,8 +55,8 @@ def test_a_dead_program_keeps_every_property_and_never_passes(tmp_path: Path) ->
 
 def test_what_a_suite_cannot_put_is_counted_in_the_word(tmp_path: Path) -> None:
     rule = {"id": "Never", "says": "x", "clauses": [], "when": "False", "holds": "True"}
-    contract = {**CONTRACT, "properties": [*CONTRACT["properties"], rule]}  # type: ignore[misc]
-    text = as_text(judged(made(tmp_path, "sic", contract), Lamp, "monitor"))
+    demands = {**DEMANDS, "demands": [*DEMANDS["demands"], rule]}  # type: ignore[misc]
+    text = as_text(judged(made(tmp_path, "sic", demands), Lamp, "monitor"))
     assert text.endswith("CONFORMS(monitor, sic; 1 of 2 properties put to the program)")
 
 

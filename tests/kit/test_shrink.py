@@ -17,7 +17,7 @@ from modeproof.kit.text import as_text
 from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
-from tests.kit.lamps import CONTRACT, Lamp, SlowAndWrong
+from tests.kit.lamps import Lamp, SlowAndWrong, made
 
 
 class Worn(Lamp):
@@ -47,7 +47,7 @@ class Moody(Lamp):
 
 @pytest.fixture
 def tour(tmp_path: Path) -> Suite:
-    write_suite(tmp_path / "tour.jsonl", "tour", [lamp_graph(tmp_path)], contract=CONTRACT)
+    write_suite(tmp_path / "tour.jsonl", "tour", [lamp_graph(tmp_path)])
     return open_suite(tmp_path / "tour.jsonl")
 
 
@@ -78,8 +78,7 @@ def test_a_difference_is_repeatable_only_if_it_shows_again(tour: Suite) -> None:
 
 
 def test_where_nothing_is_expected_any_scan_may_go(tmp_path: Path) -> None:
-    write_suite(tmp_path / "sic.jsonl", "sic", [lamp_graph(tmp_path)], contract=CONTRACT)
-    one = found(open_suite(tmp_path / "sic.jsonl"), SlowAndWrong, "monitor")
+    one = found(made(tmp_path, "sic"), SlowAndWrong, "monitor")
     assert one.confirmed and len(one.shortest.scans) == 1
 
 

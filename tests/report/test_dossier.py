@@ -24,7 +24,7 @@ from tests.report.paper import change, entry, make_whole, put, without
 ROOT = Path(__file__).resolve().parents[2]
 
 
-CONTRACT = '[contract.box.property.ShutsOverDoor]\nsays = "x"\n'
+DEMANDS = '[device.box.demand.ShutsOverDoor]\nsays = "x"\nclauses = ["BOX-1"]\nwhen = "x"\nholds = "x"\n'
 
 
 @pytest.fixture
@@ -228,13 +228,11 @@ def test_a_safety_function_has_hazard_evidence_and_who_confirms(root: Path) -> N
     assert row["row"] == "box ShutsOverDoor"
 
 
-def test_functions_come_from_contracts_and_from_assumptions_that_break(root: Path) -> None:
+def test_functions_come_from_demands_and_from_assumptions_that_break(root: Path) -> None:
     change(root / "spec/box/assumptions.toml", 'breaks = ["NEG_Box_hasty"]', 'breaks_open = "no"')
     assert entry(functions, root)["rows"] == [] and entry(functions, root)["others"] == 1
-    (root / "spec/box/contracts.toml").write_text(CONTRACT)
+    (root / "spec/box/demands.toml").write_text(DEMANDS)
     assert [row["id"] for row in entry(functions, root)["rows"]] == ["ShutsOverDoor"]
-    (root / "spec/box/contracts.toml").write_text("[[contract")
-    assert [one.status for one in functions.part(gather(root)).troubles] == [HOLE]
 
 
 def test_a_function_without_its_evidence_is_not_good(root: Path) -> None:

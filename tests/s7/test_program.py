@@ -27,7 +27,7 @@ from modeproof.kit.vectors import EXACT, SETTLED, Suite, case_id, changes, open_
 from modeproof.registers.load import load_interface
 from modeproof.s7 import program as s7
 from modeproof.s7.__main__ import main as adapter
-from modeproof.suites.contract import declare_parameters
+from modeproof.suites.demands import declare_parameters
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import RE, SE, SW
 from tests.kit.clocks import Clock, set_clock
@@ -104,7 +104,7 @@ def suite_of(folder: Path, *rows: dict[str, Any]) -> Suite:
         "scans": sum(len(row["scans"]) for row in rows),
         "shrink": "prefix",
     }
-    header.pop("contract", None)
+    header.pop("demands", None)
     path = folder / "journey.jsonl"
     path.write_text("".join(json.dumps(row) + "\n" for row in (header, *rows)), encoding="utf-8")
     return open_suite(path)

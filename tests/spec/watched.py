@@ -1,4 +1,4 @@
-"""A contract on trial: the reference implementation, or a copy of it with one edit, under its eyes."""
+"""A demands on trial: the reference implementation, or a copy of it with one edit, under its eyes."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from types import ModuleType
 from typing import Any
 
 from modeproof.ground.places import root
-from modeproof.kit.contract import Contract, Property, Watch, read_contract
+from modeproof.kit.demands import Demand, Demands, Watch, read_demands
 from modeproof.kit.relation import STABLE
 from modeproof.kit.signals import read_signals
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
-from modeproof.suites.contract import declare, declare_parameters, load_contract
+from modeproof.suites.demands import declare, declare_parameters, load_demands
 
 SCANS = 12_000
 Edit = tuple[str, str]
@@ -46,24 +46,24 @@ class Watched:
         return load_interface(root(), self.document).devices[self.target]
 
     @cached_property
-    def contract(self) -> Contract:
-        """The contract as the kit reads it from the header of a suite."""
-        table = load_contract(root(), self.document, self.device, [])
+    def demands(self) -> Demands:
+        """The demands as the kit reads them."""
+        table = load_demands(root(), self.document, self.device)
         assert table is not None
         inputs, outputs = (
             read_signals(declare(signals, []), "") for signals in (self.device.inputs, self.device.outputs)
         )
-        return read_contract(table, inputs, outputs, declare_parameters(self.device, []), "")
+        return read_demands(table, inputs, outputs, declare_parameters(self.device, []), "")
 
     @property
     def properties(self) -> list[str]:
-        """The properties of the contract."""
-        return [one.id for one in self.contract.properties]
+        """The properties of the demands."""
+        return [one.id for one in self.demands.rows]
 
     def unjudged_without_codes(self) -> tuple[str, ...]:
         """The properties that rest on an output whose values are the project's own."""
         project = [name for name, of in self.device.outputs.items() if of.project]
-        return Watch(self.contract, unobserved=project).unjudged
+        return Watch(self.demands, unobserved=project).unjudged
 
     def wires(self, held: int) -> Iterator[tuple[int, dict[str, bool]]]:
         """The inputs of the scans, the same in every test; each stands for so many scans."""
@@ -78,13 +78,13 @@ class Watched:
 
     def watch(
         self, *edits: Edit, only: str = "", late: bool = False, **params: Any
-    ) -> tuple[Property | None, dict[str, int]]:
+    ) -> tuple[Demand | None, dict[str, int]]:
         """The first property that a copy with the edits breaks, and in how many scans each was put to it.
 
         only: the one property that is judged. late: the program acts upon what it read a call before.
         """
-        chosen = tuple(one for one in self.contract.properties if only in ("", one.id))
-        watch = Watch(replace(self.contract, properties=chosen), latency=int(late))
+        chosen = tuple(one for one in self.demands.rows if only in ("", one.id))
+        watch = Watch(replace(self.demands, rows=chosen), latency=int(late))
         watch.reset(params)
         with self._program(*edits) as program:
             state = program.power_up(program.Params(**params))
@@ -104,7 +104,7 @@ class Watched:
         return broken is not None and broken.id == name
 
     def put_to_it(self, kept: Sequence[Mapping[str, Any]]) -> set[str]:
-        """The properties put to the block, which keeps its contract with each of these parameters."""
+        """The properties put to the block, which keeps its demands with each of these parameters."""
         put: set[str] = set()
         for params in kept:
             broken, counts = self.watch(**params)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import tomllib
 from typing import Any
 
+from modeproof.registers.demands import load_demand_rows
 from modeproof.registers.rows import Document
 from modeproof.report.bearing import assumptions_of, needed_by
 from modeproof.report.claims import Claim, claims
 from modeproof.report.part import Part
 from modeproof.report.parts.review import sheet
-from modeproof.report.sources import DIFFERS, HOLE, Sources, Trouble
+from modeproof.report.sources import DIFFERS, Sources
 from modeproof.report.verdicts import ASIDE
 
 ID = "functions"
@@ -19,25 +19,22 @@ ID = "functions"
 def part(sources: Sources) -> Part:
     """One row a safety function, by document.
 
-    A requirement is a safety function where the wires of a device show it (it is in contracts.toml), or
+    A requirement is a safety function where the wires of a device show it (it is in demands.toml), or
     where it fails when an assumption about the machine is not true. All others are in the annex.
     """
-    troubles: list[Trouble] = []
     rows = {
         (item.document, item.id): row.id
         for row in sheet(sources)
         for item in row.items
         if item.group == "requirement"
     }
-    found = [_document(sources, document, rows, troubles) for document in sources.documents.values()]
-    return Part(ID, "Safety functions", {"documents": found}, tuple(troubles))
+    found = [_document(sources, document, rows) for document in sources.documents.values()]
+    return Part(ID, "Safety functions", {"documents": found})
 
 
-def _document(
-    sources: Sources, document: Document, rows: dict[tuple[str, str], str], troubles: list[Trouble]
-) -> dict[str, Any]:
+def _document(sources: Sources, document: Document, rows: dict[tuple[str, str], str]) -> dict[str, Any]:
     chosen = {name for needs in needed_by(sources, document).values() for name in needs}
-    chosen |= _owed(sources, document, troubles)
+    chosen |= {row.id for row in load_demand_rows(document.root, document.name).rows}
     by: dict[str, list[Claim]] = {}
     for claim in claims(sources, document):
         by.setdefault(claim.of.id, []).append(claim)
@@ -64,20 +61,6 @@ def _document(
             if prop.id in chosen and prop.kind != "liveness"
         ],
     }
-
-
-def _owed(sources: Sources, document: Document, troubles: list[Trouble]) -> set[str]:
-    """The requirements that the contracts of the devices name."""
-    path = document.source("contracts")
-    content = sources.content(path)
-    if content is None:
-        return set()
-    try:
-        contracts = tomllib.loads(content.decode("utf-8"))["contract"]
-        return {id for contract in contracts.values() for id in contract.get("property", {})}
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        troubles.append(Trouble(HOLE, ID, f"{path} cannot be read: {error}"))
-        return set()
 
 
 def _evidence(own: list[Claim]) -> dict[str, Any]:

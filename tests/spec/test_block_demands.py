@@ -1,4 +1,4 @@
-"""The contract of each block on its wires: it is kept, and each property falls to a planted fault."""
+"""The demands of each block on its wires: it is kept, and each property falls to a planted fault."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.spec.watched import Edit, Watched
 
 @dataclass(frozen=True)
 class Trial:
-    """A block with the parameters with which it keeps its contract, and for each property a fault.
+    """A block with the parameters with which it keeps its demands, and for each property a fault.
 
     The faults are tried with the first parameters, or with those named in `others`.
     """
@@ -220,7 +220,7 @@ def test_the_property_falls_to_the_fault(document: str, name: str) -> None:
     "document",
     [pytest.param(name, marks=pytest.mark.deep if one is SENSOR else ()) for name, one in TRIALS.items()],
 )
-def test_the_block_keeps_its_contract_and_tests_each_property(document: str) -> None:
+def test_the_block_keeps_its_demands_and_tests_each_property(document: str) -> None:
     one = TRIALS[document]
     assert one.block.put_to_it(one.kept) == set(one.block.properties)
 

@@ -1,37 +1,38 @@
-"""What spec/<document>/contracts.toml says of a device, as it is in the header of its vector files.
+"""What spec/<document>/demands.toml says of a device, as the kit reads it.
 
-    [contract.lamp]                     by device
+    [device.lamp]                       by device
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
-    [contract.lamp.rules]               a value, { recent = .. }, or { memory = .., starts = .. }
+    [device.lamp.rules]                 a value, { recent = .. }, or { memory = .., starts = .. }
     codes = { recent = "word == CODE" }
 
-    [contract.lamp.property.LightNeedsCode]     by the id of properties.toml, which gives the clauses
+    [device.lamp.demand.LightNeedsCode]
     says = "The lamp goes on only with its code."
+    clauses = ["TOY-1"]
     when = "LAMP and not was_LAMP"
-    holds = "True in codes"
+    holds = "True in codes"             or comes = ".."
 
-The notation is that of modeproof.kit.contract. A document without the file has no contracts: then there is no
-relation `monitor`, and `settled` watches nothing besides.
+The notation is that of modeproof.kit.demands. A document without the file demands nothing: then there is no
+relation `monitor`, and no program can be said to follow it.
 """
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.kit.contract import read_contract
+from modeproof.kit.demands import read_demands
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.signals import read_signals
+from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device, Signal
-from modeproof.registers.typed import tables
 
-FILE = "contracts.toml"
-_ROW = {"tables", "constants", "rules", "property"}
-_PROPERTY = {"says", "when", "holds"}
+FILE = "demands.toml"
+_ROW = {"tables", "constants", "rules", "demand"}
+_DEMAND = {"says", "clauses", "kind", "when", "holds", "comes"}
 
 
 def _tables(place: Path, document: str, names: list[str], where: str) -> dict[str, list[int]]:
@@ -44,36 +45,39 @@ def _tables(place: Path, document: str, names: list[str], where: str) -> dict[st
     return {name: [int(word, 16) for word in known[name]] for name in names}
 
 
-def load_contract(place: Path, document: str, device: Device, modes: list[int]) -> dict[str, Any] | None:
-    """The contract of a device for a header, or None where none is declared.
+def load_demands(place: Path, document: str, device: Device) -> dict[str, Any] | None:
+    """The demands on a device, or None where none are declared.
 
-    Raises Unjudged with file and row for a key or a property that does not exist, and for an expression that
-    cannot be evaluated.
+    Raises Unjudged with file and row for a key that does not exist, for an expression that cannot be
+    evaluated, and for a name that no page prints: an output or a parameter that is ours.
     """
     path = place / "spec" / document / FILE
     if not path.is_file():
         return None
     where = f"spec/{document}/{FILE}"
-    row = _toml(path, where).get("contract", {}).get(device.id)
+    row = _toml(path, where).get("device", {}).get(device.id)
     if row is None:
         return None
     where = f"{where}: {device.id}"
     _only(row, _ROW, where)
-    clauses = _clauses(place, document)
+    modes = load_interface(place, document).constants.get("MODES", ())
     rules = [_rule(name, rule, where) for name, rule in row.get("rules", {}).items()]
-    properties = []
-    for id, entry in row.get("property", {}).items():
-        _only(entry, _PROPERTY, f"{where}: property {id!r}")
-        if id not in clauses:
-            raise Unjudged(f"{where}: property {id!r} is not in properties.toml")
-        properties.append({"id": id, **entry, "clauses": clauses[id]})
+    demands = []
+    for id, entry in row.get("demand", {}).items():
+        _only(entry, _DEMAND, f"{where}: demand {id!r}")
+        demands.append({"id": id, **{key: value for key, value in entry.items() if key != "kind"}})
     constants = {**_tables(place, document, row.get("tables", []), where), **row.get("constants", {})}
-    table = {"constants": constants, "rules": rules, "properties": properties}
+    table = {"constants": constants, "rules": rules, "demands": demands}
     try:
         inputs, outputs = (
             read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)
         )
-        read_contract(table, inputs, outputs, declare_parameters(device, modes), where)
+        given = declare_parameters(device, modes)
+        if "undemanded" in _toml(path, where):
+            outputs = {name: signal for name, signal in outputs.items() if not signal.project}
+            ours = {name for name, of in device.parameters.items() if of.project or of.cautious is not None}
+            given = {name: row for name, row in given.items() if name not in ours}
+        read_demands(table, inputs, outputs, given, where)
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     return table
@@ -95,7 +99,7 @@ def _rule(name: str, rule: Any, where: str) -> dict[str, Any]:
     }
 
 
-def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[str, Any]]:
+def declare(signals: Mapping[str, Signal], modes: Sequence[Any]) -> dict[str, dict[str, Any]]:
     """Signals as a header declares them."""
     table = {}
     for name, signal in signals.items():
@@ -114,17 +118,10 @@ def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[s
     return table
 
 
-def declare_parameters(device: Device, modes: list[int]) -> dict[str, dict[str, Any]]:
+def declare_parameters(device: Device, modes: Sequence[Any]) -> dict[str, dict[str, Any]]:
     """Types and default values (on the wire) of the parameters that a run can give."""
     chosen = {name: of for name, of in device.parameters.items() if of.type != "function"}
     return {name: {**row, "default": chosen[name].default} for name, row in declare(chosen, modes).items()}
-
-
-def _clauses(place: Path, document: str) -> dict[str, list[str]]:
-    where = f"spec/{document}/properties.toml"
-    data = _toml(place / where, where)
-    rows = tables(where, data, "property") if "property" in data else {}
-    return {id: list(row.get("clauses", [])) for id, row in rows.items()}
 
 
 def _toml(path: Path, where: str) -> dict[str, Any]:

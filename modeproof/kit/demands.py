@@ -1,18 +1,19 @@
-"""The safety properties of a target, judged scan by scan on what is on its wires, whatever its steps.
+"""What a document demands of a target, judged scan by scan on what is on its wires, whatever its steps.
 
-The header of a vector file holds them under `contract`, as data:
+The demands are data:
 
     {"constants": {"CODES": [240, 15]},
      "rules": [{"name": "level", "kind": "value", "is": "index(CODES, W) if ON else -1"},
                {"name": "levels", "kind": "recent", "is": "level"},
                {"name": "seen", "kind": "memory", "starts": false, "is": "ON and (seen or level >= 0)"}],
-     "properties": [{"id": "LampNeedsLevel", "says": "..", "clauses": [".."],
-                     "when": "LAMP", "holds": "seen"}]}
+     "demands": [{"id": "LampNeedsLevel", "says": "..", "clauses": [".."], "when": "LAMP", "holds": "seen"},
+                 {"id": "LampComes", "says": "..", "clauses": [".."], "when": "seen", "comes": "LAMP"}]}
 
 Rules are evaluated in their order in every scan. Of kind `value` is what is there now; a `memory` keeps
 its value until its place comes in the next scan, and starts with `starts`; `recent` is the list of the values
 in this scan and as many before it as the program may need to show what its inputs have done (`latency`, from
-0). A property must hold in every scan in which its `when` does.
+0). A demand `holds` in every scan in which its `when` does; or what it asks for `comes`: as long as `when`
+stays true, at the latest `latency` scans after the first of them.
 
 An expression is one in Python's notation, of: and or not, comparisons, in, + and -, `x if c else y`, lists,
 list[number], and the functions count index len max min sum. Names: inputs, outputs, parameters, `was_NAME`
@@ -99,8 +100,10 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class Property:
-    """What must hold whenever `when` does. `outputs` are those that it rests on, rules included."""
+class Demand:
+    """What must hold whenever `when` does, or come where `comes`. `outputs` are those that it rests on, rules
+    included.
+    """
 
     id: str
     says: str
@@ -108,34 +111,36 @@ class Property:
     when: Expression
     holds: Expression
     outputs: frozenset[str]
+    comes: bool = False
 
 
 @dataclass(frozen=True)
-class Contract:
-    """Rules and properties of one target; `parameters` gives types and default values on the wire."""
+class Demands:
+    """Rules and demands of one target; `parameters` gives types and default values on the wire."""
 
     inputs: Mapping[str, Signal]
     outputs: Mapping[str, Signal]
     parameters: Mapping[str, Mapping[str, Any]]
     constants: Mapping[str, Any]
     rules: tuple[Rule, ...]
-    properties: tuple[Property, ...]
+    rows: tuple[Demand, ...]
 
 
-def read_contract(
+def read_demands(
     table: Mapping[str, Any],
     inputs: Mapping[str, Signal],
     outputs: Mapping[str, Signal],
     parameters: Mapping[str, Mapping[str, Any]],
     place: str,
-) -> Contract:
-    """Check a contract. Raises Unjudged naming the rule or property and what is wrong with it."""
+) -> Demands:
+    """Check demands. Raises Unjudged naming the rule or demand and what is wrong with it."""
     try:
         constants = dict(table["constants"])
         signals = [*inputs, *outputs]
         known = {*signals, *(BEFORE + name for name in signals), *parameters, *constants, "dt_ms", "latency"}
         memory = {row["name"] for row in table["rules"] if row["kind"] == "memory"}
         rules = []
+        printed = frozenset(name for name, of in outputs.items() if not of.project)
         rests_on: dict[str, frozenset[str]] = {name: frozenset((name,)) for name in outputs}
         rests_on |= {BEFORE + name: frozenset((name,)) for name in outputs}
         for row in table["rules"]:
@@ -145,23 +150,25 @@ def read_contract(
             expression = _expression(row["is"], known | memory, where)
             known.add(row["name"])
             # A memory may be used before its place: then what it rests on is not known yet, and it rests on
-            # all outputs.
+            # all outputs that the document prints.
             early = expression.names & memory - set(rests_on)
-            rests_on[row["name"]] = (
-                frozenset(outputs) if early - {row["name"]} else _rest(expression.names, rests_on)
-            )
+            rests_on[row["name"]] = printed if early - {row["name"]} else _rest(expression.names, rests_on)
             rules.append(Rule(row["name"], row["kind"], row.get("starts"), expression))
-        properties = []
-        for row in table["properties"]:
-            where = f"{place}: property {row['id']!r}"
-            when, holds = (_expression(row[part], known, where) for part in ("when", "holds"))
+        demands = []
+        for row in table["demands"]:
+            where = f"{place}: demand {row['id']!r}"
+            if ("holds" in row) == ("comes" in row):
+                raise Unjudged(f"{where}: it has either `holds` or `comes`")
+            asked = "comes" if "comes" in row else "holds"
+            when, holds = (_expression(row[part], known, where) for part in ("when", asked))
             rest = _rest(when.names | holds.names, rests_on)
-            properties.append(Property(row["id"], row["says"], tuple(row["clauses"]), when, holds, rest))
+            clauses = tuple(row["clauses"])
+            demands.append(Demand(row["id"], row["says"], clauses, when, holds, rest, asked == "comes"))
     except (KeyError, TypeError, AttributeError) as error:
         raise Unjudged(f"{place}: {type(error).__name__} {error}") from None
-    if not properties:
-        raise Unjudged(f"{place}: no property, so nothing is judged")
-    return Contract(inputs, outputs, parameters, constants, tuple(rules), tuple(properties))
+    if not demands:
+        raise Unjudged(f"{place}: no demand, so nothing is judged")
+    return Demands(inputs, outputs, parameters, constants, tuple(rules), tuple(demands))
 
 
 def _rest(names: Iterable[str], rests_on: Mapping[str, frozenset[str]]) -> frozenset[str]:
@@ -177,7 +184,7 @@ def _expression(text: str, known: Iterable[str], where: str) -> Expression:
     names = set()
     for node in ast.walk(tree):
         if not isinstance(node, _NODES):
-            raise Unjudged(f"{where}: {type(node).__name__} is not for contracts: {text}")
+            raise Unjudged(f"{where}: {type(node).__name__} is not for demands: {text}")
         if isinstance(node, ast.Call) and (node.keywords or not isinstance(node.func, ast.Name)):
             raise Unjudged(f"{where}: a call of another kind: {text}")
         if isinstance(node, ast.Constant) and type(node.value) not in (bool, int, str):
@@ -192,19 +199,19 @@ def _expression(text: str, known: Iterable[str], where: str) -> Expression:
 
 
 class Watch:
-    """Follows one program through its cases. `counts` says in how many scans each property was put to it.
+    """Follows one program through its cases. `counts` says in how many scans each demand was put to it.
 
-    Properties that rest on an output which is not observed are in `unjudged`, and never judged.
+    Demands that rest on an output which is not observed are in `unjudged`, and never judged.
     """
 
-    def __init__(self, contract: Contract, latency: int = 0, unobserved: Iterable[str] = ()) -> None:
+    def __init__(self, demands: Demands, latency: int = 0, unobserved: Iterable[str] = ()) -> None:
         hidden = frozenset(unobserved)
-        self.contract, self.latency = contract, latency
-        self.judged = tuple(prop for prop in contract.properties if not prop.outputs & hidden)
-        self.unjudged = tuple(prop.id for prop in contract.properties if prop.outputs & hidden)
+        self.demands, self.latency = demands, latency
+        self.judged = tuple(prop for prop in demands.rows if not prop.outputs & hidden)
+        self.unjudged = tuple(prop.id for prop in demands.rows if prop.outputs & hidden)
         self.counts = dict.fromkeys((rule.id for rule in self.judged), 0)
         self._hidden = hidden
-        self._signals = {**contract.inputs, **contract.outputs}
+        self._signals = {**demands.inputs, **demands.outputs}
         self._words = [name for name, of in self._signals.items() if of.type == "word"]
         self._gaps = {
             name: -1 if of.type == "mode" else ""
@@ -213,25 +220,27 @@ class Watch:
         }
         self._renamed = [(name, BEFORE + name) for name in self._signals]
         self._env: dict[str, Any] = {}
+        self._waited: dict[str, int] = {}
         self.reset({})
 
     def reset(self, params: Mapping[str, Any]) -> None:
         """Begin a case with these parameters (wire values; those left out take their defaults)."""
-        env: dict[str, Any] = {"__builtins__": {}, **_FUNCTIONS, **self.contract.constants}
+        env: dict[str, Any] = {"__builtins__": {}, **_FUNCTIONS, **self.demands.constants}
         env["latency"] = self.latency
-        for name, row in self.contract.parameters.items():
+        for name, row in self.demands.parameters.items():
             env[name] = params.get(name, row.get("default"))
         for name, of in self._signals.items():
             env[name] = {"word": 0, "bool": False, "mode": -1, "modes": [], "text": ""}.get(of.type, 0)
-        for rule in self.contract.rules:
+        for rule in self.demands.rules:
             if rule.kind == "memory":
                 env[rule.name] = rule.starts
             elif rule.kind == "recent":
                 env[rule.name] = deque(maxlen=self.latency + 1)
         self._env = env
+        self._waited = {}
 
-    def scan(self, dt_ms: int, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> Property | None:
-        """The first property that does not hold in this scan, if any. Values are those of the wire."""
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> Demand | None:
+        """The first demand that is broken in this scan, if any. Values are those of the wire."""
         env = self._env
         for name, before in self._renamed:
             env[before] = env[name]
@@ -248,9 +257,9 @@ class Watch:
         for name, gap in self._gaps.items():
             if env[name] is None:
                 env[name] = gap
-        name = ""
+        name, broken = "", None
         try:
-            for rule in self.contract.rules:
+            for rule in self.demands.rules:
                 name = rule.name
                 value = eval(rule.expression.code, env)
                 if rule.kind == "recent":
@@ -259,10 +268,16 @@ class Watch:
                     env[name] = value
             for one in self.judged:
                 name = one.id
-                if eval(one.when.code, env):
-                    self.counts[name] += 1
-                    if not eval(one.holds.code, env):
-                        return one
+                if not eval(one.when.code, env):
+                    self._waited.pop(name, None)
+                    continue
+                self.counts[name] += 1
+                if eval(one.holds.code, env):
+                    self._waited.pop(name, None)
+                elif one.comes and self._waited.get(name, 0) < self.latency:
+                    self._waited[name] = self._waited.get(name, 0) + 1
+                elif broken is None:
+                    broken = one
         except (TypeError, ValueError, IndexError, KeyError, ArithmeticError) as error:
-            raise Unjudged(f"contract: {name}: {type(error).__name__} {error}") from None
-        return None
+            raise Unjudged(f"demands: {name}: {type(error).__name__} {error}") from None
+        return broken
