@@ -73,7 +73,7 @@ class Contactors:
         late = self._time(dt_ms, self.timed) if self.at_the_top else []
         if i["S_StartReset"] and not self.latched:
             self.inhibit = False
-        if pressed and self.fault != "inhibit stays" or self.fault == "no inhibit":
+        if (pressed and self.fault != "inhibit stays") or self.fault == "no inhibit":
             self.inhibit = False
         if self.error and (pressed or self.fault == "error goes") and (dropped or self.fault == "any reset"):
             self.error, self.spent = False, self.stop_first and i["S_OutControl"]

@@ -51,7 +51,7 @@ class Runs:
         return read_demands(table, inputs, outputs, declare_parameters(self.device, []), "")
 
     def wires(self, number: int) -> Iterator[tuple[int, dict[str, bool]]]:
-        """The scans of one run, the same in every test: how often an input changes, and to what, is its own."""
+        """The scans of one run, the same in every test. How often an input changes is its own."""
         dice = random.Random(number)
         often = {name: dice.choice((0.05, 0.3, 0.5, 0.7, 0.95)) for name in self.device.inputs}
         often["Activate"], change = dice.choice((0.9, 0.98, 1)), dice.choice((0.05, 0.15, 0.3))

@@ -1,4 +1,4 @@
-"""A program for the enable switch, written from the sentences of the page alone: flags, a timer, no states."""
+"""A program for the enable switch, written from the page alone: flags, timers, no states."""
 
 from __future__ import annotations
 
@@ -88,7 +88,9 @@ class Switch:
 
     def _late(self, dt_ms: int) -> bool:
         time_ms = self.DiscrepancyTimeCh1_Ch3_ms
-        return self.timer.scan(self.apart, {"thrice": 3 * time_ms, "at once": 0}.get(self.fault, time_ms), dt_ms)
+        return self.timer.scan(
+            self.apart, {"thrice": 3 * time_ms, "at once": 0}.get(self.fault, time_ms), dt_ms
+        )
 
     def _order(self, dt_ms: int, stage: int, mode: bool) -> None:
         lasts = self.gap_timer.scan(stage == 2, self.DiscrepancyTimeCh1_Ch3_ms, dt_ms)

@@ -11,7 +11,6 @@ from tests.demands.contactors import Contactors
 from tests.demands.short_runs import Edit, Runs
 
 
-
 def begins(dice: random.Random) -> list[dict[str, bool]]:
     """Half of the runs: active, the inhibit removed or none, and now and then the output is asked for."""
     if dice.random() < 0.5:
@@ -52,11 +51,15 @@ OUTRIGHT = {
 }
 FAULTS: dict[str, list[Edit]] = {
     "InactiveShowsNothing": [("elif not inputs.Activate:", "elif not inputs.Activate and not inputs.Reset:")],
-    "ActiveIsReady": [("True, False, False, True, False, 0x8401", "False, False, False, True, False, 0x8401")],
+    "ActiveIsReady": [
+        ("True, False, False, True, False, 0x8401", "False, False, False, True, False, 0x8401")
+    ],
     "StopRequestIsFollowed": [("    if not i.S_OutControl:\n", "    if not i.S_OutControl and i.S_EDM1:\n")],
     "OnlyOverDroppedContactors": [("return i.S_EDM1 and i.S_EDM2", "return i.S_EDM1")],
     "InhibitGoesByHand": [("    if i.S_StartReset:\n", "    if i.S_StartReset or i.S_OutControl:\n")],
-    "NoOutputInError": [("True, True, False, False, False, 0x8000", "True, True, False, False, True, 0x8000")],
+    "NoOutputInError": [
+        ("True, True, False, False, False, 0x8000", "True, True, False, False, True, 0x8000")
+    ],
     "LateContactorSwitchesOff": [("return not i.S_EDM1 and not i.S_EDM2", "return not i.S_EDM1")],
     "TripShowsError": [
         (
@@ -67,11 +70,18 @@ FAULTS: dict[str, list[Edit]] = {
     "LateDropOutShowsError": [("elif _time_is_over(s, i):", "elif _time_is_over(s, i) and not i.S_EDM1:")],
     "OffOnlyWithReason": [("    if not i.S_OutControl:\n", "    if not i.S_OutControl or i.Reset:\n")],
     "ErrorNeedsReason": [
-        ("        return _stay(s, i)  # AwaitReset", "        return _enter(s, i, Step.RESET_ERROR_1)  # AwaitReset")
+        (
+            "        return _stay(s, i)  # AwaitReset",
+            "        return _enter(s, i, Step.RESET_ERROR_1)  # AwaitReset",
+        )
     ],
     "ErrorGoesByHand": [("    if not i.Reset:\n        return _stay(s, i)  # StayInError\n", "")],
-    "CauseGoesFirst": [("    if not _both_dropped_out(i):\n        return", "    if not i.S_EDM1:\n        return")],
-    "ResetEndsError": [("    return _disable_by_hand(s, i)  # ResetError", "    return _stay(s, i)  # ResetError")],
+    "CauseGoesFirst": [
+        ("    if not _both_dropped_out(i):\n        return", "    if not i.S_EDM1:\n        return")
+    ],
+    "ResetEndsError": [
+        ("    return _disable_by_hand(s, i)  # ResetError", "    return _stay(s, i)  # ResetError")
+    ],
     "RequestIsServed": [
         ("    return _disable_by_hand(s, i)  # RemoveInhibit", "    return _stay(s, i)  # RemoveInhibit")
     ],

@@ -17,7 +17,7 @@ def channels(*closed: int) -> dict[str, bool]:
 
 
 def begins(dice: random.Random) -> list[dict[str, bool]]:
-    """Most runs: active in the mode at stage 0, then channel 1 alone for a while, stage 1, stage 2, or some of it."""
+    """Most runs: active in the mode at stage 0, then channel 1 for a while, stage 1, and what may follow."""
     if dice.random() < 0.3:
         return []
     ready = {"Activate": True, "S_SafetyActive": True, **channels(2)}
@@ -70,10 +70,16 @@ FAULTS: dict[str, list[Edit]] = {
         )
     ],
     "OffInOtherStages": [
-        ("    if sees_stage_1(i):\n        return _at(s, i, Step.STAGE_1)  # StayEnabled", _STAYS.format("sees_stage_2(i)"))
+        (
+            "    if sees_stage_1(i):\n        return _at(s, i, Step.STAGE_1)  # StayEnabled",
+            _STAYS.format("sees_stage_2(i)"),
+        )
     ],
     "OffWithoutStage1": [
-        ("    if sees_stage_1(i):\n        return _at(s, i, Step.STAGE_1)  # StayEnabled", _STAYS.format("all_true(i)"))
+        (
+            "    if sees_stage_1(i):\n        return _at(s, i, Step.STAGE_1)  # StayEnabled",
+            _STAYS.format("all_true(i)"),
+        )
     ],
     "EnableComesFromStage0": [
         (
@@ -89,8 +95,8 @@ FAULTS: dict[str, list[Edit]] = {
     ],
     "Channel3TooLateIsAnError": [
         (
-            "    if time_is_over(s, i):\n        return _too_late(s, i)\n    if sees_stage_1(i):",
-            "    if time_is_over(s, i) and i.S_EnableSwitchCh2:\n        return _too_late(s, i)\n    if sees_stage_1(i):",
+            "    if time_is_over(s, i):\n        return _too_late(s, i)\n    if sees_stage_1",
+            "    if time_is_over(s, i) and all_true(i):\n        return _too_late(s, i)\n    if sees_stage_1",
         )
     ],
     "ErrorNeedsReason": [
@@ -99,13 +105,21 @@ FAULTS: dict[str, list[Edit]] = {
             "return _at(s, i, Step.OPERATION_ERROR if i.Reset else Step.STAGE_0)  # StayAtStage0",
         )
     ],
-    "ErrorStaysUntilReset": [("automatic = s.params.AUTO_RESET_ERRORS and i.S_AutoReset", "automatic = True")],
+    "ErrorStaysUntilReset": [
+        ("automatic = s.params.AUTO_RESET_ERRORS and i.S_AutoReset", "automatic = True")
+    ],
     "CauseGoesFirst": [
         ("    if not sees_stage_0(i):\n        return _at(s, i, cause)  # LoseStage0\n", ""),
-        ("    if sees_stage_0(i):\n        return _at(s, i, released)  # SeeStage0", "    return _at(s, i, released)"),
+        (
+            "    if sees_stage_0(i):\n        return _at(s, i, released)  # SeeStage0",
+            "    return _at(s, i, released)",
+        ),
     ],
     "ResetEndsError": [
-        ("            return _at(s, i, Step.STAGE_0)  # LeaveError", "            return _at(s, i, s.state)  # LeaveError")
+        (
+            "            return _at(s, i, Step.STAGE_0)  # LeaveError",
+            "            return _at(s, i, s.state)  # LeaveError",
+        )
     ],
     "Stage1Enables": [
         (
