@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from modeproof.ground.errors import suggestion
 from modeproof.registers.citations import Sources
+from modeproof.registers.demands_page import check_demands
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.profiles import check_profiles
 from modeproof.registers.rows import Device, Document, Problem, Signal
@@ -39,6 +40,7 @@ def cross_check(document: Document, sources: Sources) -> list[Problem]:
         *_assumptions(document),
         *_runs(document, sources),
         *check_faults(document),
+        *check_demands(document),
     ]
 
 
