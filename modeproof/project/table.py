@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from modeproof.kit.errors import plain
+from modeproof.output.junit import ELEMENTS
 from modeproof.output.outcome import UNJUDGED, Outcome, Problem
 from modeproof.project.judging import Judged, Judging
 
@@ -47,8 +48,9 @@ def about(found: Outcome) -> str:
         return f"{count} properties" if count > 1 else found.target or found.subject
     if found.word == UNJUDGED:
         return found.target or found.subject
-    named = list(dict.fromkeys(id for _, problem in found.problems for id in ids_of(problem)))
-    named = named or [demand.id for demand in found.demands if demand.word not in ("PROVED", "CONFORMS")]
+    judged = [demand for demand in found.demands if demand.required]
+    named = list(dict.fromkeys(id for one in judged for problem in one.problems for id in ids_of(problem)))
+    named = named or [one.id for one in judged if ELEMENTS.get(one.word) != "system-out"]
     more = f" and {len(named) - MOST} more" if len(named) > MOST else ""
     verb = "breaks" if found.status == 1 else "not shown:"
     return f"{verb} {', '.join(named[:MOST])}{more}" if named else found.target or found.subject
