@@ -106,12 +106,12 @@ class Guard:
         if self.unlocked:
             if not i["S_SafetyActive"] and self.zone_lost == "error":
                 self.error, self.unlocked = True, False
-            elif not i["S_SafetyActive"] and self.zone_lost == "locks":
+            elif (not i["S_SafetyActive"] and self.zone_lost == "locks") or (
+                not i["UnlockRequest"] and self.fault != "stays unlocked"
+            ):
                 self.unlocked = False
-            elif not i["UnlockRequest"] and self.fault != "stays unlocked":
-                self.unlocked = False
-        elif self.enabled and self.asked and safe and not self.error and self.fault != "never unlocks":
-            self.unlocked = True
+        elif self.enabled and self.asked and safe and self.fault != "never unlocks":
+            self.unlocked = not self.error
 
 
 def _outputs(ready: bool, locked: bool, unlock: bool, error: bool) -> dict[str, Any]:

@@ -13,7 +13,14 @@ TRIAL = Trial(
     "guard_locking",
     "sf_guard_locking",
     (10,),
-    {"Activate": 0.95, "S_GuardMonitoring": 0.8, "S_GuardLock": 0.8, "S_SafetyActive": 0.8, "UnlockRequest": 0.3, "Reset": 0.35},
+    {
+        "Activate": 0.95,
+        "S_GuardMonitoring": 0.8,
+        "S_GuardLock": 0.8,
+        "S_SafetyActive": 0.8,
+        "UnlockRequest": 0.3,
+        "Reset": 0.35,
+    },
     ("S_StartReset", "S_AutoReset"),
 )
 LETTER: dict[str, Any] = {}
@@ -43,44 +50,79 @@ OUTRIGHT = {
     "stays unlocked": "UnlockGoesWithRequest",
     "never unlocks": "RequestIsServed",
 }
+LOSES = "    if {}:\n        return Step.SAFETY_LOST  # LoseGuard"
 FAULTS: dict[str, list[Edit]] = {
     "InactiveShowsNothing": [("if not i.Activate:", "if not i.Activate and not i.Reset:")],
-    "ActiveIsReady": [("Outputs(True, False, False, False, 0x8001)", "Outputs(False, False, False, False, 0x8001)")],
+    "ActiveIsReady": [
+        ("Outputs(True, False, False, False, 0x8001)", "Outputs(False, False, False, False, 0x8001)")
+    ],
     "EnableNeedsClosedGuard": [
         (
-            "    if not (i.S_GuardMonitoring and i.S_GuardLock):\n        return Step.SAFETY_LOST  # LoseGuard",
-            "    if not i.S_GuardLock:\n        return Step.SAFETY_LOST  # LoseGuard",
+            LOSES.format("not (i.S_GuardMonitoring and i.S_GuardLock)"),
+            LOSES.format("not i.S_GuardLock"),
         )
     ],
     "EnableNeedsLockedGuard": [
         (
-            "    if not (i.S_GuardMonitoring and i.S_GuardLock):\n        return Step.SAFETY_LOST  # LoseGuard",
-            "    if not i.S_GuardMonitoring:\n        return Step.SAFETY_LOST  # LoseGuard",
+            LOSES.format("not (i.S_GuardMonitoring and i.S_GuardLock)"),
+            LOSES.format("not i.S_GuardMonitoring"),
         )
     ],
     "ErrorTakesBothSignals": [
-        ("return Outputs(True, False, False, True, 0xC004)", "return Outputs(True, False, True, True, 0xC004)")
+        (
+            "return Outputs(True, False, False, True, 0xC004)",
+            "return Outputs(True, False, True, True, 0xC004)",
+        )
     ],
     "StartInhibitGoesByHand": [
-        ("    if i.S_StartReset:\n        return Step.GUARD", "    if i.S_StartReset or i.S_AutoReset:\n        return Step.GUARD")
+        (
+            "    if i.S_StartReset:\n        return Step.GUARD",
+            "    if i.S_StartReset or i.S_AutoReset:\n        return Step.GUARD",
+        )
     ],
-    "RestartInhibitGoesByHand": [("alone = i.S_AutoReset and", "alone = (i.S_AutoReset or i.S_StartReset) and")],
+    "RestartInhibitGoesByHand": [
+        ("alone = i.S_AutoReset and", "alone = (i.S_AutoReset or i.S_StartReset) and")
+    ],
     "UnlockIsRequested": [("if i.UnlockRequest and i.S_SafetyActive:", "if i.S_SafetyActive:")],
     "UnlockWaitsForSafeZone": [("if i.S_SafetyActive and _requested(s, i):", "if _requested(s, i):")],
-    "RequestIsServed": [("if i.S_SafetyActive and _requested(s, i):", "if i.Reset and i.S_SafetyActive and _requested(s, i):")],
+    "RequestIsServed": [
+        ("if i.S_SafetyActive and _requested(s, i):", "if i.Reset and i.S_SafetyActive and _requested(s, i):")
+    ],
     "UnlockTakesEnable": [
         ("Outputs(True, False, True, False, 0x8013)", "Outputs(True, True, True, False, 0x8013)")
     ],
-    "UnlockLastsWithRequest": [("    if not i.S_GuardMonitoring:\n        return Step.GUARD_OPEN_AND_UNLOCKED  # OpenGuard", "    if not i.S_GuardMonitoring:\n        return Step.WAIT_FOR_OPERATOR  # OpenGuard")],
-    "UnlockGoesWithRequest": [("return s.params.UNLOCK_ENDS == WITH_REQUEST and not i.UnlockRequest", "return False"), ("    if not i.UnlockRequest:\n        return Step.WAIT_FOR_OPERATOR  # WithdrawRequest\n", "")],
-    "EnableLasts": [("return Step.GUARD_CLOSED_AND_LOCKED  # StayLocked", "return Step.GUARD_CLOSED_AND_LOCKED if i.S_SafetyActive else Step.WAIT_FOR_RESET")],
+    "UnlockLastsWithRequest": [
+        (
+            "    if not i.S_GuardMonitoring:\n        return Step.GUARD_OPEN_AND_UNLOCKED  # OpenGuard",
+            "    if not i.S_GuardMonitoring:\n        return Step.WAIT_FOR_OPERATOR  # OpenGuard",
+        )
+    ],
+    "UnlockGoesWithRequest": [
+        ("return s.params.UNLOCK_ENDS == WITH_REQUEST and not i.UnlockRequest", "return False"),
+        ("    if not i.UnlockRequest:\n        return Step.WAIT_FOR_OPERATOR  # WithdrawRequest\n", ""),
+    ],
+    "EnableLasts": [
+        (
+            "return Step.GUARD_CLOSED_AND_LOCKED  # StayLocked",
+            "return Step.GUARD_CLOSED_AND_LOCKED if i.S_SafetyActive else Step.WAIT_FOR_RESET",
+        )
+    ],
     "StartsByItself": [("    if i.S_StartReset:\n", "    if i.S_StartReset and i.Reset:\n")],
     "RestartsByItself": [("alone = i.S_AutoReset and", "alone = False and")],
-    "ResetRemovesInhibit": [("    if rises(i.Reset, s.reset_before):\n        return Step.GUARD_CLOSED_AND_LOCKED  # RemoveRestartInhibit\n", "")],
+    "ResetRemovesInhibit": [
+        (
+            "    if rises(i.Reset, s.reset_before):\n        return Step.GUARD_CLOSED_AND_LOCKED  # RemoveRe"
+            "startInhibit\n",
+            "",
+        )
+    ],
     "ErrorGoesByHand": [("s.params.MESSAGE_OF_LOSS == UNTIL_RESET, 0x8014", "False, 0x8014")],
     "ResetEndsError": [("return Step.WAIT_FOR_OPERATOR  # AcknowledgeError", "return Step.SAFETY_RETURN")],
     "ErrorNeedsReason": [
-        ("return Step.WAIT_FOR_RESET  # AwaitReset", "return Step.RESET_ERROR3 if i.UnlockRequest else Step.WAIT_FOR_RESET")
+        (
+            "return Step.WAIT_FOR_RESET  # AwaitReset",
+            "return Step.RESET_ERROR3 if i.UnlockRequest else Step.WAIT_FOR_RESET",
+        )
     ],
 }
 

@@ -32,7 +32,10 @@ FAULTS: dict[str, list[Edit]] = {
         )
     ],
     "DarkSensorSwitchesOff": [
-        ("return _to(s, i, Step.ESPE_INTERRUPTED_1)  # Interrupt1", "return _to(s, i, Step.ESPE_FREE_NO_TEST)")
+        (
+            "return _to(s, i, Step.ESPE_INTERRUPTED_1)  # Interrupt1",
+            "return _to(s, i, Step.ESPE_FREE_NO_TEST)",
+        )
     ],
     "EnableLasts": [
         (
@@ -47,12 +50,16 @@ FAULTS: dict[str, list[Edit]] = {
     "RunsByItself": [("return i.S_AutoReset and not s.start_inhibit", "return False")],
     "ResetEndsInhibit": [
         (
-            "    if _reset_rises(s, i):\n        return _to(s, i, Step.ESPE_FREE_NO_TEST)  # EndRestartInhibit1\n",
+            "    if _reset_rises(s, i):\n        return _to(s, i, Step.ESPE_FREE_NO_TEST)  # EndRestart"
+            "Inhibit1\n",
             "",
         )
     ],
     "LostSensorIsShown": [
-        ("return _to(s, i, Step.ESPE_INTERRUPTED_2)  # Interrupt2", "return _to(s, i, Step.ESPE_INTERRUPTED_1)")
+        (
+            "return _to(s, i, Step.ESPE_INTERRUPTED_2)  # Interrupt2",
+            "return _to(s, i, Step.ESPE_INTERRUPTED_1)",
+        )
     ],
     "ReturnAsksForReset": [
         ("return _to(s, i, Step.WAIT_FOR_RESET_2)  # BecomeFree2", "return _to(s, i, Step.WAIT_FOR_RESET_1)")
@@ -67,12 +74,17 @@ FAULTS: dict[str, list[Edit]] = {
     ],
     "TestBegins": [("return rises(i.StartTest, s.start_test_before)", "return i.StartTest and i.Reset")],
     "SenderStaysOffUntilDark": [
-        ("return _to(s, i, Step.TEST_REQUEST, elapsed_ms=_time_so_far(s, i))", "return _to(s, i, Step.TEST_ACTIVE)")
+        (
+            "return _to(s, i, Step.TEST_REQUEST, elapsed_ms=_time_so_far(s, i))",
+            "return _to(s, i, Step.TEST_ACTIVE)",
+        )
     ],
     "DarkSensorTurnsSenderOn": [
         ("    if not i.S_OSSD_In:\n        return _to(s, i, Step.TEST_ACTIVE)  # SeeDark\n", "")
     ],
-    "FreeSensorEndsTest": [("    if i.S_OSSD_In:\n        return _to(s, i, Step.ESPE_FREE_TEST_OK)  # SeeFree\n", "")],
+    "FreeSensorEndsTest": [
+        ("    if i.S_OSSD_In:\n        return _to(s, i, Step.ESPE_FREE_TEST_OK)  # SeeFree\n", "")
+    ],
     "TestEndsWithFreeSensor": [
         ("return _to(s, i, Step.TEST_ACTIVE)  # SeeDark", "return _to(s, i, Step.ESPE_FREE_TEST_OK)")
     ],
@@ -80,11 +92,21 @@ FAULTS: dict[str, list[Edit]] = {
         ("return _to(s, i, Step.ESPE_FREE_TEST_OK)  # SeeFree", "return _to(s, i, Step.ESPE_FREE_NO_TEST)")
     ],
     "TestExecutedIsEarned": [
-        ("return _to(s, i, Step.ESPE_INTERRUPTED_1)  # Interrupt1", "return _to(s, i, Step.ESPE_INTERRUPTED_2)")
+        (
+            "return _to(s, i, Step.ESPE_INTERRUPTED_1)  # Interrupt1",
+            "return _to(s, i, Step.ESPE_INTERRUPTED_2)",
+        )
     ],
     "PhaseEndsInTime": [(EXPIRE_ACTIVE, "")],
-    "FailedTestIsShown": [(EXPIRE_REQUEST, EXPIRE_REQUEST.replace("_test_error(i)", "Step.ESPE_INTERRUPTED_1"))],
-    "CodeTellsTheSensor": [("    if i.S_OSSD_In and i.NoExternalTest:\n        return Step", "    if i.S_OSSD_In:\n        return Step")],
+    "FailedTestIsShown": [
+        (EXPIRE_REQUEST, EXPIRE_REQUEST.replace("_test_error(i)", "Step.ESPE_INTERRUPTED_1"))
+    ],
+    "CodeTellsTheSensor": [
+        (
+            "    if i.S_OSSD_In and i.NoExternalTest:\n        return Step",
+            "    if i.S_OSSD_In:\n        return Step",
+        )
+    ],
     "ResetEndsTestError": [
         ("return _to(s, i, Step.ESPE_FREE_NO_TEST)  # ResetTestError", "return _to(s, i, _test_error(i))")
     ],
@@ -93,21 +115,37 @@ FAULTS: dict[str, list[Edit]] = {
     ],
     "ManualTestComesFirst": [("    if s.sensor_before and not i.S_OSSD_In:", "    if not i.S_OSSD_In:")],
     "ManualTestIsFollowed": [
-        ("Step.ESPE_INTERRUPTED_EXTERNAL_TEST)  # BeginExternalTest", "Step.END_EXTERNAL_TEST)  # BeginExternalTest")
+        (
+            "Step.ESPE_INTERRUPTED_EXTERNAL_TEST)  # BeginExternalTest",
+            "Step.END_EXTERNAL_TEST)  # BeginExternalTest",
+        )
     ],
     "ManualTestIsSeen": [
-        ("return _to(s, i, Step.END_EXTERNAL_TEST)  # BecomeFree", "return _to(s, i, Step.EXTERNAL_FUNCTION_TEST)  # BecomeFree")
+        (
+            "return _to(s, i, Step.END_EXTERNAL_TEST)  # BecomeFree",
+            "return _to(s, i, Step.EXTERNAL_FUNCTION_TEST)  # BecomeFree",
+        )
     ],
     "HeldResetIsAnError": [
-        ("return _to(s, i, Step.RESET_ERROR_2, s.start_inhibit)  # Find", "return _to(s, i, Step.WAIT_FOR_RESET_1, s.start_inhibit)  # Find")
+        (
+            "return _to(s, i, Step.RESET_ERROR_2, s.start_inhibit)  # Find",
+            "return _to(s, i, Step.WAIT_FOR_RESET_1, s.start_inhibit)  # Find",
+        )
     ],
-    "HeldResetHasItsCode": [("return _to(s, i, Step.RESET_ERROR_5)  # Find", "return _to(s, i, Step.PARAMETER_ERROR)  # Find")],
-    "InvalidTimeIsRefused": [("return _to(s, i, Step.PARAMETER_ERROR)  # Refuse", "return _to(s, i, Step.INIT)  # Refuse")],
+    "HeldResetHasItsCode": [
+        ("return _to(s, i, Step.RESET_ERROR_5)  # Find", "return _to(s, i, Step.PARAMETER_ERROR)  # Find")
+    ],
+    "InvalidTimeIsRefused": [
+        ("return _to(s, i, Step.PARAMETER_ERROR)  # Refuse", "return _to(s, i, Step.INIT)  # Refuse")
+    ],
     "InvalidTimeNeverEnables": [
         ("return _to(s, i, Step.RESET_ERROR_5)  # Find", "return _to(s, i, Step.ESPE_FREE_NO_TEST)  # Find")
     ],
     "ErrorNeedsReason": [
-        ("return _to(s, i, Step.EXTERNAL_FUNCTION_TEST)  # AwaitExternalTest", "return _to(s, i, Step.TEST_ERROR_1_C010)")
+        (
+            "return _to(s, i, Step.EXTERNAL_FUNCTION_TEST)  # AwaitExternalTest",
+            "return _to(s, i, Step.TEST_ERROR_1_C010)",
+        )
     ],
 }
 PARAMETERS = {
