@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML 1.0 cannot hold."""
 ELEMENTS = {
-    **dict.fromkeys(("PROVED", "CONFORMS"), "system-out"),
-    **dict.fromkeys(("REFUTED", "DIFFERS"), "failure"),
+    **dict.fromkeys(("PROVED", "CONFORMS", "FOLLOWS"), "system-out"),
+    **dict.fromkeys(("REFUTED", "DIFFERS", "BREAKS"), "failure"),
 }
 """What JUnit calls a case with such a verdict; what is neither shown nor refuted is an error."""
 

@@ -32,7 +32,7 @@ from modeproof.output.words import in_scan, shown
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 BASE = "%SRCROOT%"
 """The project folder, as forges call it."""
-ERRORS = ("REFUTED", "DIFFERS", UNJUDGED)
+ERRORS = ("REFUTED", "DIFFERS", "BREAKS", UNJUDGED)
 """Words of what is wrong; the others are warnings: something is not shown."""
 ROLES = {"program": "analysisTarget", "wiring": "analysisTarget", "log": "analysisTarget"}
 _AT = re.compile(r"(.+?):(\d+): ")

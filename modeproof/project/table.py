@@ -9,6 +9,7 @@ from modeproof.output.outcome import UNJUDGED, Outcome, Problem
 from modeproof.project.judging import Judged, Judging
 
 HEAD = ("entry", "verdict", "about", "", "seconds")
+GOOD = ("PROVED", "CONFORMS", "FOLLOWS")
 MOST = 3
 """Rules that a row names."""
 LONGEST = 300
@@ -44,11 +45,13 @@ def about(found: Outcome) -> str:
     """What was asked, and which clauses or properties are broken, or not shown."""
     if not found.status:
         count = len(found.demands)
+        if found.word in ("FOLLOWS", "PROVED") and found.document:
+            return found.target
         return f"{count} properties" if count > 1 else found.target or found.subject
     if found.word == UNJUDGED:
         return found.target or found.subject
     named = list(dict.fromkeys(id for _, problem in found.problems for id in ids_of(problem)))
-    named = named or [demand.id for demand in found.demands if demand.word not in ("PROVED", "CONFORMS")]
+    named = named or [demand.id for demand in found.demands if demand.word not in GOOD]
     more = f" and {len(named) - MOST} more" if len(named) > MOST else ""
     verb = "breaks" if found.status == 1 else "not shown:"
     return f"{verb} {', '.join(named[:MOST])}{more}" if named else found.target or found.subject
