@@ -22,20 +22,21 @@ from modeproof.kit.machine_reference import program_of
 from modeproof.kit.profile import ALL, LETTER, PROFILES, OfProfile, of_profile
 from modeproof.kit.relation import read_hello
 from modeproof.kit.resume import Resume, identity
-from modeproof.kit.suite_judge import EXIT, Difference, Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Difference, Options, Plan, Verdict
 from modeproof.kit.text import (
     as_junit,
     as_record,
     as_text,
     difference_lines,
     joined,
-    joint_word,
+    joint,
     left,
     say,
     together,
     write_json,
     write_text,
 )
+from modeproof.kit.two_answers import judge_both
 from modeproof.kit.vectors import EXACT, FILE_NAME, MONITOR, SETTLED, Suite, open_suite
 
 TEST_RIG = "--i-know-this-is-a-test-rig"
@@ -51,7 +52,7 @@ def add_parser(
     """Add `conform`. `run` takes its place where more is at hand than vectors."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "conform",
-        epilog="exit status: 0 CONFORMS or EQUAL, 1 DIFFERS, 2 UNJUDGED",
+        epilog="exit status: 0 FOLLOWS, CONFORMS or EQUAL, 1 BREAKS or DIFFERS, 2 UNJUDGED",
     )
     parser.add_argument(
         "target", metavar="TARGET", help="what the program claims to be: a device of the interface register"
@@ -84,7 +85,12 @@ def add_parser(
         "--relation",
         choices=(EXACT, SETTLED, MONITOR),
         default=EXACT,
-        help="outputs scan by scan (default), once they have settled, or the safety properties alone",
+        help="besides what the document demands: outputs scan by scan (default), once settled, or nothing",
+    )
+    parser.add_argument(
+        "--same",
+        action="store_true",
+        help="the exit status asks for equality with the reference, too, and not only for what is demanded",
     )
     parser.add_argument(
         "--latency", type=_count, metavar="N", help="scans that an input may need (default: as hello says)"
@@ -168,8 +174,7 @@ def run_kit(args: argparse.Namespace) -> int:
                 suites = Bundle.own().demanding(suites)
         else:
             suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
-        verdicts = judge(args, in_profile(args, suites))
-        return EXIT[joint_word(verdicts)]
+        return joint(judge(args, in_profile(args, suites)))[1]
     except (Unjudged, KeyboardInterrupt) as error:
         with contextlib.suppress(Unjudged):
             say(f"UNJUDGED: {str(error) or 'interrupted'}", sys.stderr)
@@ -224,10 +229,11 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     with _ended_alike():
         for suite in suites:
             verdict = _judge(args, suite)
-            verdict.params = tuple(args.param)
-            verdict.profile = profiles.get(suite.name, "")
-            if args.vectors is not None and (doubt := not_published(suite)):
-                verdict.suite = f"{verdict.suite}, {doubt}"
+            doubt = not_published(suite) if args.vectors is not None else ""
+            for one in (verdict, verdict.page):
+                if one is not None:
+                    one.params, one.profile = tuple(args.param), profiles.get(suite.name, "")
+                    one.suite = f"{one.suite}, {doubt}" if doubt else one.suite
             verdicts.append(verdict)
             last = suite is suites[-1] or verdict.interrupted
             say(as_text(verdict, again(args, suite, verdict), suite, last))
@@ -238,9 +244,9 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     if args.json is not None:
         record = as_record(verdicts[0])
         if len(verdicts) > 1:
-            status = EXIT[joint_word(verdicts)]
+            word, status = joint(verdicts)
             record = {
-                "verdict": joint_word(verdicts),
+                "verdict": word,
                 "status": status,
                 "suites": list(map(as_record, verdicts)),
             }
@@ -321,10 +327,12 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
     def first(found: Difference) -> None:
         tell(joined(["first difference:", *difference_lines(found, suite, way=False)]))
 
-    verdict = run_suite(
+    verdict = judge_both(
         suite,
         starter(args, suite),
-        plan=plan,
+        plan,
+        args.same,
+        page={"on_progress": _now_and_then(progress), "on_difference": first},
         on_progress=_now_and_then(progress),
         on_difference=first,
         on_passed=resume.note if resume is not None else None,
@@ -401,6 +409,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
     ):
         if value != usual:
             words.append(f"--{name} {value}")
+    words += ["--same"] * bool(args.same)
     words += [f"--param {quoted(text)}" for text in args.param]
     if args.profile not in (None, LETTER):
         words.append(f"--profile {args.profile}")

@@ -3,8 +3,8 @@
 `exact` compares all outputs in every scan. `settled` takes a case in groups, each one change of inputs and
 the scans in which the specification comes to rest: the inputs are held for as many scans as the program may
 need, and then the outputs must be those of the specification and stay so; in every scan each output must show
-what it showed before, or what it shows on the way or at the end, and the safety properties must hold.
-`monitor` judges the safety properties alone.
+what it showed before, or what it shows on the way or at the end. `monitor` judges what the document demands,
+and compares nothing with the specification.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
 
 BATCH = 64
 """Scans in one `scans` request."""
+LATENCY = 1
+"""Scans that a program may take to show what its inputs ask for, unless it says or is told otherwise."""
 STABLE = 2
 """Scans for which settled outputs must stay."""
 MOST_LATENCY = 10_000
@@ -104,9 +106,10 @@ class Session:
             why = ", or its values are ours alone (--codes compares those)" if left_out else ""
             raise Unjudged(f"every output is unobserved{why}, so nothing can be compared")
         self.watch: Watch | None = None
-        demands = suite.demands() if options.relation != EXACT else None
+        self.granted = max(LATENCY, self.latency) if options.latency is None else options.latency
+        demands = suite.demands() if options.relation == MONITOR else None
         if demands is not None:
-            self.watch = Watch(demands, self.latency, hidden)
+            self.watch = Watch(demands, self.granted, hidden)
         if options.relation == MONITOR and self.latency and SETTLED not in suite.relations:
             raise Unjudged(
                 f"suite {suite.name} changes inputs in every scan, and the program may need {self.latency} "

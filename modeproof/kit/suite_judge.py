@@ -20,7 +20,18 @@ from modeproof.kit.errors import Unjudged, suggestion
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
 from modeproof.kit.vectors import EXACT, MONITOR, WIRING, Case, Scan, Suite
-from modeproof.kit.verdict import CONFORMS, DIFFERS, EXIT, PROTOCOL, UNJUDGED, Difference, Plan, Verdict
+from modeproof.kit.verdict import (
+    BREAKS,
+    CONFORMS,
+    DIFFERS,
+    EXIT,
+    FOLLOWS,
+    PROTOCOL,
+    UNJUDGED,
+    Difference,
+    Plan,
+    Verdict,
+)
 
 __all__ = ["CONFORMS", "DIFFERS", "EXIT", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
 __all__ += ["read_hello", "run_suite"]
@@ -74,6 +85,8 @@ def run_suite(
     if verdict.word == CONFORMS:
         verdict.reason = run.too_little()
         verdict.word = UNJUDGED if verdict.reason else CONFORMS
+    if plan.options.relation == MONITOR:
+        verdict.word = {CONFORMS: FOLLOWS, DIFFERS: BREAKS}.get(verdict.word, verdict.word)
     return verdict
 
 
@@ -181,7 +194,7 @@ class _Run:
         return ""
 
     def _never_put(self) -> str:
-        """Safety properties that this suite puts to a right program, and that were never put to this one."""
+        """Demands that this suite puts to the reference, and that were never put to this program."""
         missing = {name for name, count in self.verdict.properties.items() if not count}
         if missing and self.watch is not None and len(missing) < len(self.verdict.properties):
             for _, case in self._cases():
@@ -194,7 +207,7 @@ class _Run:
             return ""
         names = ", ".join(name for name in self.verdict.properties if name in missing)
         return (
-            f"{len(missing)} of {len(self.verdict.properties)} safety properties were never put to the "
+            f"{len(missing)} of {len(self.verdict.properties)} demands were never put to the "
             f"program, for it never did what they are about: {names}"
         )
 
@@ -237,10 +250,10 @@ class _Run:
             verdict.adapter = f"{hello.name} {hello.version}".strip()
             verdict.unobserved = hello.unobserved
             verdict.not_compared = session.not_compared
-            verdict.latency = session.latency
+            verdict.latency = session.granted if session.watch is not None else session.latency
             if session.watch is not None:
                 verdict.unjudged = session.watch.unjudged
-                self.watch = Watch(session.watch.demands, 0, session.hidden)
+                self.watch = Watch(session.watch.demands, session.granted, session.hidden)
 
     def _account(self, session: Session | None) -> None:
         if session is None or session.watch is None:

@@ -13,7 +13,17 @@ from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.files import write_json as write_json
 from modeproof.kit.files import write_text as write_text
 from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
-from modeproof.kit.verdict import CONFORMS, DIFFERS, PROTOCOL, UNJUDGED, Difference, Verdict
+from modeproof.kit.verdict import (
+    BREAKS,
+    CONFORMS,
+    DIFFERS,
+    EXIT,
+    FOLLOWS,
+    PROTOCOL,
+    UNJUDGED,
+    Difference,
+    Verdict,
+)
 
 LONGEST_LINE = 4000
 """Characters of a line that is printed."""
@@ -52,9 +62,12 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last:
     """What is printed at the end; `again` is the command that runs the shortest case again.
 
     With the suite, clauses and decisions are told in words. What holds for all suites of a run is said with
-    the last one.
+    the last one. What the document demands comes first, and the reference after it.
     """
-    lines = []
+    lines, page = [], ""
+    if verdict.page is not None:
+        page = as_text(verdict.page, again, suite, last) + "\n\n"
+        again = "" if verdict.page.difference is not None else again
     causes = verdict.causes()
     if verdict.difference is not None:
         lines += difference_lines(verdict.difference, suite)
@@ -82,7 +95,9 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last:
         lines.append("")
     lines += _coverage(verdict, last)
     lines.append(f"{verdict_word(verdict)}: {verdict.reason}" if verdict.reason else verdict_word(verdict))
-    return joined(lines)
+    if verdict.word == DIFFERS and not verdict.status:
+        lines.append("the program follows the page all the same; --same asks for equality with the reference")
+    return page + joined(lines)
 
 
 def verdict_word(verdict: Verdict) -> str:
@@ -91,48 +106,67 @@ def verdict_word(verdict: Verdict) -> str:
 
 
 def together(verdicts: Sequence[Verdict]) -> str:
-    """One line for several suites; UNJUDGED counts for more than DIFFERS."""
+    """A line for several suites, by the page and by the reference; what is wrong counts for more."""
+    pages = [verdict.page for verdict in verdicts if verdict.page is not None]
+    return "\n".join(joined([_together(rows)]) for rows in (pages, verdicts) if rows)
+
+
+def _together(verdicts: Sequence[Verdict]) -> str:
     word = joint_word(verdicts)
-    if word == CONFORMS:
+    if word in (CONFORMS, FOLLOWS):
         return _word(verdicts)
-    return joined([f"{word}: {', '.join(f'{verdict.suite} {verdict.word}' for verdict in verdicts)}"])
+    return f"{word}: {', '.join(f'{verdict.suite} {verdict.word}' for verdict in verdicts)}"
 
 
 def _word(verdicts: Sequence[Verdict]) -> str:
     """The word of verdicts that are alike, with all that was not judged."""
     first = verdicts[0]
-    if first.word != CONFORMS:
+    if first.word == BREAKS and first.difference is not None:
+        clauses = ", ".join(first.difference.clauses)
+        return f"{BREAKS} {first.difference.broken} ({clauses})" if clauses else first.word
+    if first.word not in (CONFORMS, FOLLOWS):
         return first.word
     suites = " ".join(
         f"{verdict.only} of {verdict.suite}" if verdict.only else verdict.suite for verdict in verdicts
     )
-    notes = [f"{first.relation}, {suites}"]
-    if first.profile:
+    if first.word == FOLLOWS:
+        put = {name for verdict in verdicts for name, count in verdict.properties.items() if count}
+        known = {name for verdict in verdicts for name in (*verdict.properties, *verdict.unjudged)}
+        scans = "scan" if first.latency == 1 else "scans"
+        notes = [f"{len(put)} of {len(known)} demands, {suites}; within {first.latency} {scans}"]
+    else:
+        notes = [f"{first.relation}, {suites}"]
+    if first.profile and first.word != FOLLOWS:
         notes.append(f"profile {first.profile}")
     hidden = {name: None for verdict in verdicts for name in verdict.unobserved}
     if hidden:
         have, all_ = first.outputs
         notes += [f"{have} of {all_} outputs compared", f"not observed: {', '.join(hidden)}"]
-    if first.not_compared:
+    if first.not_compared and first.word != FOLLOWS:
         notes.append(f"not compared: {', '.join(first.not_compared)}")
     if first.params:
         notes.append(f"with {', '.join(first.params)}")
-    if first.relation == MONITOR:
-        put = sum(1 for verdict in verdicts for count in verdict.properties.values() if count)
-        all_ = sum(len(verdict.properties) + len(verdict.unjudged) for verdict in verdicts)
-        notes += [f"{put} of {all_} properties put to the program"] if put < all_ else []
-    elif any(seen < all_ for seen, all_ in (verdict.transitions for verdict in verdicts)):
+    if first.relation != MONITOR and any(
+        seen < all_ for seen, all_ in (verdict.transitions for verdict in verdicts)
+    ):
         seen, all_ = (sum(counts) for counts in zip(*(one.transitions for one in verdicts), strict=True))
         notes.append(f"{seen:,} of {all_:,} transitions")
     if earlier := sum(verdict.earlier for verdict in verdicts):
         notes.append(f"resumed: {earlier:,} cases passed in an earlier run")
-    return f"{CONFORMS}({'; '.join(notes)})"
+    return f"{first.word}({'; '.join(notes)})"
 
 
 def joint_word(verdicts: Sequence[Verdict]) -> str:
     """The worst word of several."""
     words = {verdict.word for verdict in verdicts}
-    return next(word for word in (UNJUDGED, DIFFERS, CONFORMS) if word in words)
+    return next(word for word in (UNJUDGED, BREAKS, DIFFERS, FOLLOWS, CONFORMS) if word in words)
+
+
+def joint(verdicts: Sequence[Verdict]) -> tuple[str, int]:
+    """The worst word of those that the exit status depends on, and that status."""
+    words = [one.word for verdict in verdicts for one in verdict.judged]
+    worst = next(word for word in (UNJUDGED, BREAKS, DIFFERS, FOLLOWS, CONFORMS) if word in words)
+    return worst, EXIT[worst]
 
 
 def _coverage(verdict: Verdict, last: bool) -> list[str]:
@@ -152,11 +186,11 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
             elif counts:
                 whole = "as far as the outputs compared show it" if verdict.unobserved else "in full"
                 lines.append(f"all {sum(1 for _, n in counts.values() if n)} {what} covered {whole}")
-    if verdict.relation != EXACT and verdict.word != UNJUDGED:
+    if verdict.relation == MONITOR and verdict.word != UNJUDGED:
         put = ", ".join(f"{name} {count:,}" for name, count in verdict.properties.items() if count)
         never = [name for name, count in verdict.properties.items() if not count]
         if put:
-            lines.append(f"safety properties, in so many scans each (latency {verdict.latency} scans): {put}")
+            lines.append(f"demands, put in so many scans each (within {verdict.latency} scans): {put}")
         if never:
             lines.append("never put to the program, so not judged: " + ", ".join(never))
     if verdict.params and verdict.relation != EXACT:
@@ -165,7 +199,7 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
         lines.append("rest on outputs that are not compared, so not judged: " + ", ".join(verdict.unjudged))
     if verdict.unobserved:
         lines.append("not observed, so not judged: " + ", ".join(verdict.unobserved))
-    if verdict.not_compared and last:
+    if verdict.not_compared and last and verdict.relation != MONITOR:
         names = ", ".join(verdict.not_compared)
         lines.append(
             f"not compared, for the document does not give the values (--codes does so by ours): {names}"
@@ -193,9 +227,11 @@ def difference_lines(found: Difference, suite: Suite | None = None, way: bool = 
     elif found.when:
         lines.append(f"here it  {found.when}")
     if found.findings:
-        lines.append(f"differs from the document as we decided to read it: {', '.join(found.findings)}")
+        lines.append(
+            f"differs from the reference; the document leaves open here: {', '.join(found.findings)}"
+        )
     elif not found.broken and found.clauses:
-        lines.append("differs from the document")
+        lines.append("differs from the reference")
     if suite is not None:
         for id in (*found.clauses, *found.findings):
             if words := suite.text(id):
@@ -285,6 +321,7 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         if verdict.first_difference_s is None
         else round(verdict.first_difference_s, 3),
         "reason": verdict.reason,
+        "page": None if verdict.page is None else as_record(verdict.page),
         "difference": None if verdict.difference is None else _record(verdict.difference),
         "causes": [
             {"at": cause[0], "outputs": list(cause[1:]), "cases": [one.case.id for one in found]}
@@ -316,7 +353,7 @@ def _record(found: Difference) -> dict[str, Any]:
 def as_junit(verdicts: Sequence[Verdict]) -> str:
     """JUnit XML: a suite is a testsuite, a case a testcase, what could not be judged an error."""
     lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"]
-    for verdict in verdicts:
+    for verdict in (one for row in verdicts for one in row.judged):
         found = {difference.case.id: difference for difference in verdict.differences}
         errors = 1 if verdict.word == UNJUDGED else 0
         only = f" {verdict.only}" if verdict.only else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,8 +11,11 @@ from modeproof.kit.errors import plain
 from modeproof.kit.relation import Options
 from modeproof.kit.vectors import Case
 
+FOLLOWS, BREAKS = "FOLLOWS", "BREAKS"
+"""A program and what its document demands."""
 CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
-EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
+"""A program and the reference implementation."""
+EXIT = {FOLLOWS: 0, BREAKS: 1, CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
 PROTOCOL = "protocol"
 """Stands for the step where an adapter answered what it must refuse."""
 MOST_TOLD = 3
@@ -91,7 +94,9 @@ class Verdict:
     part of the suite was asked for, if not all of it; `profile` whose choices it is about, where the target
     has profiles; `params` which parameters were given; `compared` counts the scans whose outputs were
     compared and the requests that were refused, `outputs` the outputs that were compared and all; `earlier`
-    cases passed in an earlier run. A transition is covered only if a compared output shows it.
+    cases passed in an earlier run. A transition is covered only if a compared output shows it. `page` is what
+    the same cases say of the demands of the document, `same` whether equality with the reference was asked
+    for besides.
     """
 
     word: str
@@ -122,11 +127,22 @@ class Verdict:
     passed: list[int] = field(default_factory=list)
     ids: dict[str, str] = field(default_factory=dict)
     reason: str = ""
+    page: Verdict | None = None
+    same: bool = False
+
+    @property
+    def judged(self) -> Sequence[Verdict]:
+        """What the exit status depends on: the page, where it could be judged, and the reference where that
+        was asked for, or where the page says nothing of this suite.
+        """
+        if self.page is None or (self.page.word == UNJUDGED and not self.page.interrupted):
+            return (self,)
+        return (self.page, self) if self.same else (self.page,)
 
     @property
     def status(self) -> int:
         """The exit status."""
-        return EXIT[self.word]
+        return max(EXIT[verdict.word] for verdict in self.judged)
 
     @property
     def transitions(self) -> tuple[int, int]:

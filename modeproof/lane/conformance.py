@@ -132,11 +132,14 @@ def _targets(place: Path, document: str, lane: str) -> list[str]:
 def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> dict[str, Any]:
     from modeproof.kit.adapter import Adapter
     from modeproof.kit.errors import Unjudged as KitUnjudged
-    from modeproof.kit.suite_judge import Options, Plan, run_suite
+    from modeproof.kit.suite_judge import Options, Plan
+    from modeproof.kit.two_answers import judge_both
     from modeproof.kit.vectors import open_suite
+    from modeproof.registers.load import load_interface
     from modeproof.registers.vector_files import published
     from modeproof.suites.build import ready_suite
     from modeproof.suites.conform_command import OWN, own_id, own_record
+    from modeproof.suites.demands import load_demands
 
     name = own_id(target, suite_name)
     evidence.discard(place, document, name)
@@ -144,10 +147,12 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
     try:
         path = published(place, target, suite_name)
         suite = ready_suite(place, document, target, suite_name) if path is None else open_suite(path)
-        found = run_suite(
-            suite,
+        table = load_demands(place, document, load_interface(place, document).devices[target])
+        found = judge_both(
+            suite.demanding(table),
             lambda: Adapter([sys.executable, str(place / OWN), target], ANSWER_SECONDS),
-            plan=Plan(Options(codes=True)),  # of our own code every output
+            Plan(Options(codes=True)),  # of our own code every output
+            same=True,
         )
         record = own_record(place, document, suite, found, started)
     except (Unjudged, KitUnjudged) as error:

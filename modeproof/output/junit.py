@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML 1.0 cannot hold."""
 ELEMENTS = {
-    **dict.fromkeys(("PROVED", "CONFORMS", "FOLLOWS"), "system-out"),
-    **dict.fromkeys(("REFUTED", "DIFFERS", "BREAKS"), "failure"),
+    **dict.fromkeys(("PROVED", "FOLLOWS", "SAME", "CONFORMS"), "system-out"),
+    **dict.fromkeys(("REFUTED", "BREAKS", "DIFFERS"), "failure"),
 }
 """What JUnit calls a case with such a verdict; what is neither shown nor refuted is an error."""
 
@@ -25,11 +25,13 @@ class Case:
     word: str
     text: str
     properties: Mapping[str, str]
+    required: bool = True
+    """Whether it can fail: what a program may be or not is only told."""
 
     @property
     def element(self) -> str:
         """What JUnit calls it."""
-        return ELEMENTS.get(self.word, "error")
+        return ELEMENTS.get(self.word, "error") if self.required else "system-out"
 
 
 @dataclass(frozen=True)

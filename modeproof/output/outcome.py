@@ -61,7 +61,7 @@ class Rule(_Row, frozen=True, kw_only=True):
     """What a problem is about: an id, and a sentence that says it."""
 
     id: str
-    kind: Literal["clause", "finding", "property", "target", "log"]
+    kind: Literal["clause", "finding", "demand", "property", "target", "log"]
     sentence: str
     source: str = ""
     """Where it is: a document and its page, or a file."""
@@ -121,6 +121,8 @@ class Demand(_Row, frozen=True, kw_only=True):
     strength: str = ""
     """How it was shown, or how far."""
     problems: list[Problem] = []
+    required: bool = True
+    """Whether the exit status depends on it: a program may follow its page and not be as the reference is."""
 
 
 class Outcome(_Row, frozen=True, kw_only=True):
@@ -159,8 +161,9 @@ class Outcome(_Row, frozen=True, kw_only=True):
 
     @property
     def problems(self) -> list[tuple[Demand, Problem]]:
-        """All problems with the demands that they are of."""
-        return [(demand, problem) for demand in self.demands for problem in demand.problems]
+        """All problems with the demands that they are of, those that the exit status depends on first."""
+        rows = [(demand, problem) for demand in self.demands for problem in demand.problems]
+        return sorted(rows, key=lambda row: not row[0].required)
 
 
 def as_json(outcome: Outcome) -> str:

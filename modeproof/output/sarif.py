@@ -32,7 +32,7 @@ from modeproof.output.words import in_scan, shown
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 BASE = "%SRCROOT%"
 """The project folder, as forges call it."""
-ERRORS = ("REFUTED", "DIFFERS", "BREAKS", UNJUDGED)
+ERRORS = ("REFUTED", "BREAKS", "DIFFERS", UNJUDGED)
 """Words of what is wrong; the others are warnings: something is not shown."""
 ROLES = {"program": "analysisTarget", "wiring": "analysisTarget", "log": "analysisTarget"}
 _AT = re.compile(r"(.+?):(\d+): ")
@@ -162,7 +162,7 @@ def _result(outcome: Outcome, demand: Demand, problem: Problem, order: list[str]
     found: dict[str, Any] = {
         "ruleId": rule.id,
         "ruleIndex": order.index(rule.id),
-        "level": "error" if demand.word in ERRORS else "warning",
+        "level": "note" if not demand.required else "error" if demand.word in ERRORS else "warning",
         "message": _message(_text(demand, problem)),
         "partialFingerprints": {"modeproof/v1": hashlib.sha256(json.dumps(who).encode()).hexdigest()},
         "properties": {

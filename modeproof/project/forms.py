@@ -77,6 +77,7 @@ def _cases(found: Outcome) -> list[Case]:
             demand.word,
             "\n".join([*(problem.message for problem in demand.problems), demand.sentence]),
             said,
+            demand.required,
         )
         for demand in found.demands
     ]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from modeproof.kit.errors import plain
+from modeproof.output.junit import ELEMENTS
 from modeproof.output.outcome import UNJUDGED, Outcome, Problem
 from modeproof.project.judging import Judged, Judging
 
 HEAD = ("entry", "verdict", "about", "", "seconds")
-GOOD = ("PROVED", "CONFORMS", "FOLLOWS")
 MOST = 3
 """Rules that a row names."""
 LONGEST = 300
@@ -45,13 +45,12 @@ def about(found: Outcome) -> str:
     """What was asked, and which clauses or properties are broken, or not shown."""
     if not found.status:
         count = len(found.demands)
-        if found.word in ("FOLLOWS", "PROVED") and found.document:
-            return found.target
         return f"{count} properties" if count > 1 else found.target or found.subject
     if found.word == UNJUDGED:
         return found.target or found.subject
-    named = list(dict.fromkeys(id for _, problem in found.problems for id in ids_of(problem)))
-    named = named or [demand.id for demand in found.demands if demand.word not in GOOD]
+    judged = [demand for demand in found.demands if demand.required]
+    named = list(dict.fromkeys(id for one in judged for problem in one.problems for id in ids_of(problem)))
+    named = named or [one.id for one in judged if ELEMENTS.get(one.word) != "system-out"]
     more = f" and {len(named) - MOST} more" if len(named) > MOST else ""
     verb = "breaks" if found.status == 1 else "not shown:"
     return f"{verb} {', '.join(named[:MOST])}{more}" if named else found.target or found.subject

@@ -109,7 +109,7 @@ OWN_SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
 def _is_ours(args: argparse.Namespace) -> bool:
     """Whether the arguments are those of a run that `verify` makes, so that it is made again."""
     usual = (args.relation, args.latency, args.hold, args.slow) == (EXACT, None, 0, 1)
-    usual = usual and bool(args.codes) and args.profile == ALL
+    usual = usual and bool(args.codes) and bool(args.same) and args.profile == ALL
     return usual and args.adapter == f"python {OWN} {args.target}"
 
 
@@ -128,16 +128,15 @@ def own_rests(place: Path, document: str, target: str, suite: str) -> evidence.R
 
 def _own_inputs(place: Path, document: str, target: str, suite: Path) -> dict[str, str]:
     code = reached(place, OWN, f"{REFERENCE}/{document}/{target}.py")
-    return evidence.hashes(place, [*code, place / "spec" / document / "interface.toml", suite])
+    registers = [place / "spec" / document / name for name in ("interface.toml", "demands.toml")]
+    return evidence.hashes(place, [*code, *(path for path in registers if path.is_file()), suite])
 
 
 def own_record(place: Path, document: str, suite: Suite, verdict: Verdict, started: float) -> dict[str, Any]:
     """The evidence of the reference implementation behind the adapter protocol."""
     about = {"device": suite.target, "implementation": REFERENCE}
     adapter = kit_command.quoted(f"python {OWN} {suite.target}")
-    command = (
-        f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --profile {ALL}"
-    )
+    command = f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --same --profile {ALL}"
     id = own_id(suite.target, suite.name)
     inputs = _own_inputs(place, document, suite.target, suite.path)
     return _record(place, document, suite, verdict, id, command, started, inputs, about)
@@ -159,6 +158,7 @@ def _write_yours(
             *([f"--hold {args.hold}"] if args.hold else []),
             *([f"--slow {args.slow}"] if args.slow != 1 else []),
             *(["--codes"] if args.codes else []),
+            *(["--same"] if args.same else []),
             *(f"--profile {name}" for name in profile),
         ]
     )

@@ -11,9 +11,9 @@ from typing import Any
 from modeproof.kit import kit_command
 from modeproof.kit.adapter import split_command
 from modeproof.kit.diagnosis import step_there
-from modeproof.kit.text import as_text, difference_lines, joint_word, verdict_word
-from modeproof.kit.vectors import EXACT, Case, Suite
-from modeproof.kit.verdict import EXIT, UNJUDGED, Difference, Verdict
+from modeproof.kit.text import as_text, difference_lines, joint, verdict_word
+from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
+from modeproof.kit.verdict import UNJUDGED, Difference, Verdict
 from modeproof.output.options import About, Clock
 from modeproof.output.outcome import (
     Counterexample,
@@ -36,8 +36,9 @@ def outcome_of(
     args: argparse.Namespace, suites: Sequence[Suite], verdicts: Sequence[Verdict], clock: Clock
 ) -> Outcome:
     """A run of the command. An interrupted run has fewer verdicts than suites."""
-    word, own = joint_word(verdicts), _own_files(args)
-    said = [verdict_word(verdict) for verdict in verdicts]
+    (word, status), own = joint(verdicts), _own_files(args)
+    rows = [one for verdict in verdicts for one in (verdict.page, verdict) if one is not None]
+    said = [verdict_word(verdict) for verdict in rows]
     first = verdicts[0]
     pairs = list(zip(suites, verdicts, strict=False))
     return Outcome(
@@ -46,17 +47,22 @@ def outcome_of(
         target=args.target,
         document=suites[0].document,
         word=word,
-        status=EXIT[word],  # type: ignore[arg-type]
+        status=status,  # type: ignore[arg-type]
         sentence="; ".join(said),
         strength=f"relation {args.relation}: so many scans as the suites have; nothing is said of others",
-        demands=[_demand(args, suite, verdict, own) for suite, verdict in pairs],
+        demands=[
+            _demand(args, suite, one, own, one in verdict.judged)
+            for suite, verdict in pairs
+            for one in (verdict.page, verdict)
+            if one is not None
+        ],
         files=[*own, *files("vectors", {str(suite.path): _hash(suite.path) for suite in suites})],
         tools=tools(),
         profile=first.profile,
         assumptions=[f"with {', '.join(args.param)}"] if args.param else [],
         trusted=TRUSTED,
         not_shown=list(dict.fromkeys(text for pair in pairs for text in _not_shown(*pair))),
-        reason="; ".join(verdict.reason for verdict in verdicts if verdict.word == UNJUDGED),
+        reason="; ".join(one.reason for row in verdicts for one in row.judged if one.word == UNJUDGED),
         text="\n".join(
             as_text(verdict, kit_command.again(args, suite, verdict), suite, verdict is verdicts[-1])
             for suite, verdict in pairs
@@ -95,7 +101,9 @@ def _not_shown(suite: Suite, verdict: Verdict) -> list[str]:
     return found
 
 
-def _demand(args: argparse.Namespace, suite: Suite, verdict: Verdict, own: Sequence[File]) -> Demand:
+def _demand(
+    args: argparse.Namespace, suite: Suite, verdict: Verdict, own: Sequence[File], required: bool
+) -> Demand:
     done, total = verdict.transitions
     says = suite.says
     problems = [_problem(suite, found[0], len(found), own, args.relation) for _, found in verdict.causes()]
@@ -104,11 +112,19 @@ def _demand(args: argparse.Namespace, suite: Suite, verdict: Verdict, own: Seque
         rule = Rule(id=suite.name, kind="target", sentence=sentence, source=suite.document)
         problems.append(Problem(rule=rule, message=verdict.reason, spot=_spot(own)))
     how = "scan by scan" if args.relation == EXACT else f"by the relation {args.relation}"
+    sentence = (
+        f"The program answers each case of the suite {suite.name} as the reference of {suite.target}, {how}."
+    )
+    text, by_page = says["guarantees"], verdict.relation == MONITOR
+    if by_page:
+        sentence = f"The program does in the suite {suite.name} what its document demands of {suite.target}."
+        text = ", ".join(name for name, count in verdict.properties.items() if count)
     return Demand(
-        id=suite.name,
+        id=f"{suite.name} by the page" if by_page else suite.name,
         word=verdict.word,
-        sentence=f"The program answers each case of the suite {suite.name} of {suite.target}, {how}.",
-        text=says["guarantees"],
+        sentence=sentence,
+        text=text,
+        required=required,
         strength=f"{verdict.cases:,} of {verdict.cases_total:,} cases passed, {verdict.scans:,} scans, "
         f"{done:,} of {total:,} transitions",
         problems=problems,
@@ -119,9 +135,9 @@ def _problem(suite: Suite, found: Difference, count: int, own: Sequence[File], r
     """A difference that stands for all of its likely cause."""
     cited = rules_of([*found.clauses, *found.findings], suite.document)
     if found.broken:
-        about = Rule(id=found.broken, kind="property", sentence=found.says, source=suite.document)
+        about = Rule(id=found.broken, kind="demand", sentence=found.says, source=suite.document)
     else:
-        sentence = f"The step {found.step} of {suite.target} gives the outputs that the document asks for."
+        sentence = f"The step {found.step} of {suite.target} gives the outputs of the reference."
         about = Rule(
             id=f"{suite.target}.{found.step}", kind="target", sentence=sentence, source=suite.document
         )
@@ -184,7 +200,7 @@ def about(args: argparse.Namespace) -> About:
     usual |= {"scans": None}
     words += [f"--{name} {getattr(args, name)}" for name in usual if getattr(args, name) != usual[name]]
     words += [f"--param {kit_command.quoted(text)}" for text in args.param]
-    words += ["--codes"] * bool(args.codes)
+    words += ["--codes"] * bool(args.codes) + ["--same"] * bool(args.same)
     return About(
         command="conform",
         subject=args.name or _program(args),

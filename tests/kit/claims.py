@@ -227,14 +227,12 @@ def a_column_counts_where_the_suite_says_so(kit: Kit) -> None:
 def a_property_that_fails_is_named_with_what_it_rests_on(kit: Kit) -> None:
     of = suite([case([(0, True, True), (0, True, True)])])
     early = {(1, "A"): False, (1, "B"): True, (1, "CODE"): "0001"}
-    for relation, latency in (("monitor", 0), ("settled", 0)):
-        of = replace(of, relations=("exact", "settled", "monitor"))
-        verdict = kit.run(of, lambda: Spoiled({(1, "B"): True}), relation, latency=latency)
-        (found,) = verdict.differences
-        assert (found.broken, found.says, found.clauses, found.findings) == ("AFirst", "A.", ("S-8",), ())
-        assert (found.scan, found.expected, found.got) == (1, {"B": False}, {"B": True})
-        assert found.cause == ("AFirst", "B") and found.when == "breaks AFirst"
-        assert verdict.reason.endswith("(breaks AFirst): B is true, expected false"), verdict.reason
+    verdict = kit.run(of, lambda: Spoiled({(1, "B"): True}), "monitor", latency=0)
+    (found,) = verdict.differences
+    assert (found.broken, found.says, found.clauses, found.findings) == ("AFirst", "A.", ("S-8",), ())
+    assert (found.scan, found.expected, found.got) == (1, {"B": False}, {"B": True})
+    assert found.cause == ("AFirst", "B") and found.when == "breaks AFirst"
+    assert verdict.reason.endswith("(breaks AFirst): B is true, expected false"), verdict.reason
     verdict = kit.run(of, lambda: Spoiled(early), "monitor")
     assert not verdict.differences, "the other property is about B with A"
     idle = suite([case([(0, False, True)])], ["monitor"])
@@ -282,19 +280,19 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
         [case([(0, True, True), (0, True, True)]), case([(10, True, True), (0, True, True)])], ["monitor"]
     )
     verdict = kit.run(of, Program, "monitor")
-    assert (verdict.word, verdict.properties) == ("CONFORMS", {"BNeedsGo": 2, "AFirst": 2, "BLasts": 0})
+    assert (verdict.word, verdict.properties) == ("FOLLOWS", {"BNeedsGo": 2, "AFirst": 2, "BLasts": 0})
     assert verdict.compared == 4 and verdict.scans == 4 and verdict.cases_total == 2
     dark = {(n, "B"): False for n in range(1, 9)}
     verdict = kit.run(of, lambda: Spoiled(dark), "monitor")
-    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("3 of 3 safety properties were never put")
+    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("3 of 3 demands were never put")
     half = {(n, "A"): False for n in range(1, 9)}
     verdict = kit.run(of, lambda: Spoiled(half), "monitor")
-    assert verdict.reason.startswith("1 of 3 safety properties") and verdict.reason.endswith(": AFirst")
+    assert verdict.reason.startswith("1 of 3 demands") and verdict.reason.endswith(": AFirst")
     few = suite([case([(0, True, True), (0, True, True), (0, False, True)])], ["monitor"])
     verdict = kit.run(few, Program, "monitor")
-    assert verdict.word == "CONFORMS", "no case of the suite puts the other one to a right program"
+    assert verdict.word == "FOLLOWS", "no case of the suite puts the other one to a right program"
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["A"]), "monitor")
-    assert verdict.word == "CONFORMS" and verdict.unjudged == ("AFirst", "BLasts")
+    assert verdict.word == "FOLLOWS" and verdict.unjudged == ("AFirst", "BLasts")
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["B"]), "monitor")
     assert "nothing is demanded of the outputs" in verdict.reason
     verdict = kit.run(replace(of, header={**of.header, "demands": None}), Program, "monitor")
@@ -302,7 +300,7 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
     lowered = case([(0, True, True), (0, True, True), (0, False, True)])
     stuck = {(n, "B"): False for n in range(3, 9)}
     verdict = kit.run(suite([lowered], ["monitor"]), lambda: Spoiled(stuck), "monitor")
-    assert verdict.reason.startswith("1 of 3 safety properties") and verdict.reason.endswith(": BLasts")
+    assert verdict.reason.startswith("1 of 3 demands") and verdict.reason.endswith(": BLasts")
     refused = suite([requested(of.given[1], 1), *of.given], ["monitor"])
     assert kit.run(refused, lambda: Wired(Spoiled(half)), "monitor").word == "UNJUDGED"
 
@@ -311,9 +309,9 @@ def latency_needs_inputs_that_are_held(kit: Kit) -> None:
     of = suite([case([(0, True, True), (0, True, True)])], ["exact", "monitor"])
     assert "changes inputs in every scan" in kit.run(of, Program, "monitor", latency=1).reason
     held = suite([case([(0, True, False), (0, True, True)])], ["settled", "monitor"])
-    assert kit.run(held, Program, "monitor", latency=1).word == "CONFORMS"
+    assert kit.run(held, Program, "monitor", latency=1).word == "FOLLOWS"
     odd = {(1, "A"): True, (1, "CODE"): "00FF", (2, "CODE"): "00FF"}
-    assert kit.run(held, lambda: Spoiled(odd, 1), "monitor").word == "CONFORMS", "nothing forbids it"
+    assert kit.run(held, lambda: Spoiled(odd, 1), "monitor").word == "FOLLOWS", "nothing forbids it"
     assert kit.run(held, lambda: Spoiled(odd, 1), "settled", codes=True).word == "DIFFERS"
     (found,) = kit.run(
         held, lambda: Spoiled({(2, "B"): True, (2, "A"): False}, 3), "monitor", latency=0
@@ -645,7 +643,7 @@ def several_at_once_judge_alike(kit: Kit) -> None:
 
         verdict = kit.run(of, start, "monitor", jobs=jobs)
         assert (verdict.word, verdict.cases, verdict.properties) == (
-            "CONFORMS",
+            "FOLLOWS",
             9,
             {"BNeedsGo": 9, "AFirst": 9, "BLasts": 0},
         )

@@ -49,7 +49,7 @@ class Dead(Lamp):
 def test_a_dead_program_keeps_every_property_and_never_passes(tmp_path: Path) -> None:
     verdict = judged(made(tmp_path, "sic", TWO_RULES), Dead, "monitor")
     assert verdict.word == "UNJUDGED" and verdict.properties["Always"] > 0
-    assert "1 of 2 safety properties were never put" in verdict.reason
+    assert "1 of 2 demands were never put" in verdict.reason
     assert verdict.reason.endswith(": LightNeedsCode")
 
 
@@ -57,14 +57,14 @@ def test_what_a_suite_cannot_put_is_counted_in_the_word(tmp_path: Path) -> None:
     rule = {"id": "Never", "says": "x", "clauses": [], "when": "False", "holds": "True"}
     demands = {**DEMANDS, "demands": [*DEMANDS["demands"], rule]}  # type: ignore[misc]
     text = as_text(judged(made(tmp_path, "sic", demands), Lamp, "monitor"))
-    assert text.endswith("CONFORMS(monitor, sic; 1 of 2 properties put to the program)")
+    assert text.endswith("FOLLOWS(1 of 2 demands, sic; within 1 scan)")
 
 
 def test_latency_hides_nothing_where_inputs_are_not_held(tmp_path: Path) -> None:
     """In every scan something of the last 500 allows what stands there."""
     verdict = judged(made(tmp_path, "tour"), SlowAndWrong, "monitor", latency=500)
     assert verdict.word == "UNJUDGED" and "use a suite that holds inputs (sic)" in verdict.reason
-    assert judged(made(tmp_path, "sic"), SlowAndWrong, "monitor", latency=500).word == "DIFFERS"
+    assert judged(made(tmp_path, "sic"), SlowAndWrong, "monitor", latency=500).word == "BREAKS"
 
 
 # ------------------------------------------------------------------------------------------------ outputs

@@ -51,7 +51,7 @@ def judged(suite: Suite, start: Callable[[], Any], relation: str, **options: Any
 
 def test_a_slow_program_passes_settled_and_monitor_and_not_exact(sic: Suite) -> None:
     assert judged(sic, Slow, "settled").word == "CONFORMS"
-    assert judged(sic, Slow, "monitor").word == "CONFORMS"
+    assert judged(sic, Slow, "monitor").word == "FOLLOWS"
     assert "does not offer relation exact" in judged(sic, Slow, "exact").reason
 
     class Boasting(Slow):
@@ -63,15 +63,21 @@ def test_a_slow_program_passes_settled_and_monitor_and_not_exact(sic: Suite) -> 
 @pytest.mark.parametrize("relation", ["exact", "settled", "monitor"])
 def test_who_answers_scan_by_scan_passes_them_all(sic: Suite, relation: str) -> None:
     verdict = judged(sic, Lamp, relation)
-    assert (verdict.word, verdict.relation) == ("CONFORMS", relation)
-    assert as_text(verdict).endswith(f"CONFORMS({relation}, sic)")
+    word = "FOLLOWS" if relation == "monitor" else "CONFORMS"
+    said = (
+        "FOLLOWS(1 of 1 demands, sic; within 1 scan)"
+        if relation == "monitor"
+        else f"CONFORMS({relation}, sic)"
+    )
+    assert (verdict.word, verdict.relation) == (word, relation)
+    assert as_text(verdict).endswith(said)
 
 
-def test_settled_covers_transitions_and_counts_what_properties_were_asked(sic: Suite) -> None:
-    verdict = judged(sic, Slow, "settled")
-    assert all(have == total for have, total in verdict.covered.values())
+def test_settled_covers_transitions_and_counts_what_was_demanded(sic: Suite) -> None:
+    assert all(have == total for have, total in judged(sic, Slow, "settled").covered.values())
+    verdict = judged(sic, Slow, "monitor")
     assert verdict.properties["LightNeedsCode"] > 0 and verdict.latency == 3
-    assert "safety properties, in so many scans each (latency 3 scans): LightNeedsCode" in as_text(verdict)
+    assert "demands, put in so many scans each (within 3 scans): LightNeedsCode" in as_text(verdict)
     assert as_record(verdict)["properties"] == verdict.properties
 
 
@@ -92,7 +98,7 @@ def test_a_forbidden_output_is_found_even_if_it_settles_well(sic: Suite) -> None
     found = verdict.difference
     assert found is not None and dict(found.got) == {"MW": "FFFF"}
     assert "neither before, nor on the way" in found.when
-    assert judged(sic, SlowAndFlickering, "monitor").word == "CONFORMS", "no property speaks of it"
+    assert judged(sic, SlowAndFlickering, "monitor").word == "FOLLOWS", "no property speaks of it"
 
 
 def test_a_program_slower_than_declared_differs_until_it_says_so(sic: Suite) -> None:
@@ -100,9 +106,8 @@ def test_a_program_slower_than_declared_differs_until_it_says_so(sic: Suite) -> 
     assert judged(sic, SlowerThanItSays, "settled", latency=8).word == "CONFORMS"
 
 
-@pytest.mark.parametrize("relation", ["settled", "monitor"])
-def test_a_broken_property_is_found_and_named_at_any_pace(sic: Suite, relation: str) -> None:
-    verdict = judged(sic, SlowAndWrong, relation)
+def test_a_broken_demand_is_found_and_named(sic: Suite) -> None:
+    verdict = judged(sic, SlowAndWrong, "monitor")
     found = verdict.difference
     assert found is not None and found.broken == "LightNeedsCode" and found.clauses == ("TOY-1",)
     assert "breaks:  LightNeedsCode: The lamp goes on only with its code." in as_text(verdict)
@@ -111,7 +116,7 @@ def test_a_broken_property_is_found_and_named_at_any_pace(sic: Suite, relation: 
 
 def test_monitor_passes_what_nothing_forbids_and_says_what_it_judged(tour: Suite) -> None:
     verdict = judged(tour, Late, "monitor")
-    assert verdict.word == "CONFORMS" and verdict.properties == {"LightNeedsCode": 5}
+    assert verdict.word == "FOLLOWS" and verdict.properties == {"LightNeedsCode": 5}
     assert "transitions" not in as_text(verdict), "what was passed through is not known"
 
 
@@ -122,7 +127,7 @@ def test_a_property_never_put_to_the_program_is_named(tour: Suite) -> None:
 
     verdict = judged(tour, Dark, "monitor")
     assert verdict.word == "UNJUDGED" and verdict.status == 2
-    assert "1 of 1 safety properties were never put to the program" in as_text(verdict)
+    assert "1 of 1 demands were never put to the program" in as_text(verdict)
     assert verdict.reason.endswith("LightNeedsCode")
 
 
@@ -133,9 +138,6 @@ def test_properties_of_unobserved_outputs_are_named_and_not_judged(sic: Suite) -
         def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
             return {"MW": out["MW"]}
 
-    verdict = judged(sic, Half, "settled")
-    assert verdict.word == "CONFORMS" and verdict.unjudged == ("LightNeedsCode",)
-    assert "rest on outputs that are not compared" in as_text(verdict)
     assert "nothing is demanded of the outputs" in judged(sic, Half, "monitor").reason
 
 
@@ -231,10 +233,10 @@ def answer(m, out):
     for code, relation, word in (
         ("", "settled", "CONFORMS"),
         ('HELLO["scans"] = True', "settled", "CONFORMS"),
-        ('HELLO["scans"] = True', "monitor", "CONFORMS"),
+        ('HELLO["scans"] = True', "monitor", "FOLLOWS"),
         ("LIMIT = 501", "settled", "DIFFERS"),
         ('HELLO["scans"] = True\nLIMIT = 501', "settled", "DIFFERS"),
-        ("same = lambda word: True", "monitor", "DIFFERS"),
+        ("same = lambda word: True", "monitor", "BREAKS"),
         (slow, "exact", "UNJUDGED"),
         (lists, "exact", "UNJUDGED"),
     ):

@@ -61,7 +61,11 @@ def test_a_wrong_adapter_breaks_a_clause(place: Path) -> None:
     (place / "ad.py").write_text(ADAPTER, "utf-8")
     command = f'"{sys.executable}" ad.py'
     words = ["conform", "sf_edm", "--adapter", command, "--suite", "brief", "--codes", "--quiet"]
-    problem = broken(found := outcome_of(words), "DIFFERS")
+    free = outcome_of(words)
+    assert (free.word, free.status) == ("FOLLOWS", 0), "the page prints no code"
+    levels = {result["level"] for run in json.loads(as_sarif(free))["runs"] for result in run["results"]}
+    assert levels == {"note"}
+    problem = broken(found := outcome_of([*words, "--same"]), "DIFFERS")
     assert problem.spot is not None and problem.spot.file == "ad.py"
     assert problem.rule.id.startswith("sf_edm.")
     assert {"clause"} <= {rule.kind for rule in problem.others}

@@ -1,0 +1,39 @@
+"""A program by a suite, twice: what the document demands of it, and whether it is as the reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from modeproof.kit.adapter import Program
+from modeproof.kit.relation import Options
+from modeproof.kit.suite_judge import run_suite
+from modeproof.kit.vectors import DEMANDS, MONITOR, Suite
+from modeproof.kit.verdict import Plan, Verdict
+
+
+def judge_both(
+    suite: Suite,
+    start: Callable[[], Program],
+    plan: Plan | None = None,
+    same: bool = False,
+    page: dict[str, Any] | None = None,
+    **reference: Any,
+) -> Verdict:
+    """The verdict beside the reference, with that of the page as its `page` where the suite has demands.
+
+    `same`: the exit status asks for both. `page` and `reference` are handed to `run_suite`. Where the first
+    is interrupted there is no second.
+    """
+    plan = plan or Plan()
+    first = None
+    demanded = suite.header.get(DEMANDS) is not None and MONITOR in suite.relations
+    if demanded and plan.options.relation != MONITOR:
+        options: Options = replace(plan.options, relation=MONITOR)
+        first = run_suite(suite, start, plan=replace(plan, options=options, skip=()), **(page or {}))
+        if first.interrupted:
+            return first
+    verdict = run_suite(suite, start, plan=plan, **reference)
+    verdict.page, verdict.same = first, same
+    return verdict
