@@ -78,8 +78,8 @@ def spots(
 # ---------------------------------------------------------------- equality
 
 
-def demand_of_equality(found: Verdict) -> Demand:
-    """Equality with the target, and what speaks against it."""
+def demand_of_equality(found: Verdict, required: bool) -> Demand:
+    """Equality with the target, and what speaks against it. required: it was asked for."""
     binding = found.product.binding
     target = binding.reference.device.name
     sentence = f"{binding.unit.name} has the outputs of {target} in every scan from power-up."
@@ -91,7 +91,14 @@ def demand_of_equality(found: Verdict) -> Demand:
         problems.append(Problem(rule=rule, message=found.missing, spot=spot_of(binding.unit.place)))
     strength = "induction over pairs of states: every input, parameter and time, for ever"
     how = {"PROVED": strength, "REFUTED": "scans, replayed on both", "UNKNOWN": "no proof and no difference"}
-    return Demand(id=target, word=found.word, sentence=sentence, strength=how[found.word], problems=problems)
+    return Demand(
+        id=target,
+        word=found.word,
+        sentence=sentence,
+        strength=how[found.word],
+        problems=problems,
+        required=required,
+    )
 
 
 def _paper(binding: Binding) -> str:
@@ -250,8 +257,8 @@ def outcome_of_target(
         rule = _rule_of_page(followed, row.id, row.says)
         problem = Problem(rule=rule, message="an output that it needs is left out")
         demands.append(Demand(id=row.id, word="UNJUDGED", sentence=row.says, problems=[problem]))
-    if args.same and same is not None:
-        demands.append(demand_of_equality(same))
+    if same is not None:
+        demands.append(demand_of_equality(same, args.same))
     lines = dict(about(product))
     bounds = [f"{label}: {lines[label]}" for label in ("compared", "parameters", "inputs", "numbers")]
     beside = followed.judgement.beside
@@ -302,7 +309,7 @@ def demand_of_page(followed: Followed, found: FoundDemand) -> Demand:
 
 def _rule_of_page(followed: Followed, id: str, says: str) -> Rule:
     document = followed.reference.document
-    return Rule(id=id, kind="property", sentence=says, source=f"spec/{document}/demands.toml")
+    return Rule(id=id, kind="demand", sentence=says, source=f"spec/{document}/demands.toml")
 
 
 def _breaking(followed: Followed, found: FoundDemand, broken: Broken, rule: Rule) -> Problem:
