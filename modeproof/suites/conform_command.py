@@ -136,7 +136,8 @@ def own_record(place: Path, document: str, suite: Suite, verdict: Verdict, start
     """The evidence of the reference implementation behind the adapter protocol."""
     about = {"device": suite.target, "implementation": REFERENCE}
     adapter = kit_command.quoted(f"python {OWN} {suite.target}")
-    command = f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --same --profile {ALL}"
+    asked = f"--suite {suite.name} --codes --same --profile {ALL}"
+    command = f"modeproof conform {suite.target} --adapter {adapter} {asked}"
     id = own_id(suite.target, suite.name)
     inputs = _own_inputs(place, document, suite.target, suite.path)
     return _record(place, document, suite, verdict, id, command, started, inputs, about)

@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from modeproof.ground.places import root
 
 PAGE = "docs/registers.md"
-MOST_KINDS, MOST_LINES = 20, 18_000
+MOST_KINDS, MOST_LINES = 20, 21_000
 LEFT_OUT = re.compile(r"^(?:\.|build/|(?:pyproject|docs/site/zensical)\.toml$)")
 """What is made, and the settings of other tools."""
 

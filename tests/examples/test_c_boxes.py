@@ -84,13 +84,11 @@ FAULTS = {
 }
 """One edit each, and what it is."""
 UNSAFE = {
-    "a changed selection is confirmed": "EchoNeedsSelection",
-    "another output is not noticed": "EchoNeedsSelection",
-    "two outputs are not noticed": "TwoOutputsLeadToError",
-    "the echo is the selection": "EchoNeedsSelection",
-    "the mode goes with the key": "NoChangeBesideSwitchover",
+    "two outputs are not noticed": "TwoOutputsAreAFault",
+    "the echo is the selection": "EchoIsASelection",
+    "the mode goes with the key": "ModeStays",
 }
-"""Those that break a safety property, and which one is seen first."""
+"""Those that break a demand of the note, and which one is seen first."""
 
 
 @pytest.mark.sampled
@@ -103,6 +101,6 @@ def test_a_fault_is_found_once_all_has_settled(name: str, suite: Suite, tmp_path
 
 @pytest.mark.sampled
 @pytest.mark.parametrize("name", UNSAFE)
-def test_a_fault_that_is_unsafe_breaks_a_property(name: str, suite: Suite, tmp_path: Path) -> None:
+def test_a_fault_that_the_note_forbids_breaks_a_demand(name: str, suite: Suite, tmp_path: Path) -> None:
     verdict = judged(made(tmp_path, *FAULTS[name]), suite, "monitor")
     assert verdict.difference is not None and verdict.difference.broken == UNSAFE[name]
