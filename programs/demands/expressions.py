@@ -287,10 +287,13 @@ class Evaluation:
         self.names = dict(names)
         self.wrong: list[Any] = []
 
-    def value(self, text: str, where: str) -> Any:
-        """What an expression gives. Raises Unjudged: it is none of those that can be put into terms."""
+    def value(self, text: str, where: str, here: Any = True) -> Any:
+        """What an expression gives, looked at where `here` is true.
+
+        Raises Unjudged: it is none of those that can be put into terms.
+        """
         try:
-            return self._of(parsed(text), True)
+            return self._of(parsed(text), here)
         except (TypeError, AttributeError, KeyError, IndexError, z3.Z3Exception) as error:
             raise Unjudged(f"{where}: {error}: {text}") from None
 

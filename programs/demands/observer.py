@@ -238,16 +238,19 @@ class Observer:
             at.names[rule.name] = value
         for back in self._back:
             after[f"scans before: {back}"] = back == 1 or memory.get(f"scans before: {back - 1}", False)
-        asked, broken = {}, {}
+        asked, broken, of_rules = dict[str, Any](), dict[str, Any](), tuple(at.wrong)
         for row in self.rows:
+            at.wrong = []
             asked[row.id] = true(at.value(row.when.text, row.id))
-            late = every(asked[row.id], negated(true(at.value(row.holds.text, row.id))))
+            late = False
+            if asked[row.id] is not False:
+                holds = true(at.value(row.holds.text, row.id, asked[row.id]))
+                late = every(asked[row.id], negated(holds))
             for back in self._back if row.comes else ():
                 after[f"{row.id} waits: {back}"] = late
                 late = every(late, memory[f"{row.id} waits: {back}"])
-            broken[row.id] = late
-        if (wrong := some(*at.wrong)) is not False:
-            broken = {id: some(wrong, late) for id, late in broken.items()}
+            # Without a value the demand cannot be said to hold.
+            broken[row.id] = some(late, *of_rules, *at.wrong)
         return Watched(after, asked, broken), met
 
 

@@ -27,7 +27,11 @@ INPUTS = read_signals(
     "toy",
 )
 OUTPUTS = read_signals(
-    {"LAMP": {"type": "bool"}, "shown": {"type": "modes", "modes": [0, 1, 2, 3, 4]}, "screen": {"type": "word"}},
+    {
+        "LAMP": {"type": "bool"},
+        "shown": {"type": "modes", "modes": [0, 1, 2, 3, 4]},
+        "screen": {"type": "word"},
+    },
     "toy",
 )
 PARAMETERS: dict[str, dict[str, Any]] = {
@@ -45,7 +49,12 @@ RULES: list[dict[str, Any]] = [
     {"name": "seen", "kind": "memory", "starts": False, "is": "ON and (seen or chosen >= 0 or later > 2)"},
     {"name": "on_ms", "kind": "memory", "starts": 0, "is": "min(on_ms + dt_ms, T_ms + T_ms) if ON else 0"},
     {"name": "later", "kind": "memory", "starts": 0, "is": "count(ON, KEY, seen) + sum([later, -later])"},
-    {"name": "stages", "kind": "memory", "starts": [-1, -1], "is": "[stages[1], level if KEY else stages[1]]"},
+    {
+        "name": "stages",
+        "kind": "memory",
+        "starts": [-1, -1],
+        "is": "[stages[1], level if KEY else stages[1]]",
+    },
 ]
 ASKED = {
     "Once": ("LAMP and not was_LAMP", "seen and True in keys"),
@@ -54,6 +63,7 @@ ASKED = {
     "Level": ("level in permits", "shown == [level] or len(shown) == 0"),
     "Time": ("on_ms >= T_ms and len(keys) > latency", "LAMP or min(chosens) < 0 and not max(keys)"),
     "Stage": ("stages[0] != stages[1]", "KEY != was_KEY or shown == was_shown"),
+    "Most": ("shown != []", "max(shown) < 4"),
     "Oldest": ("True", "chosens[0] != 1 or W >= 16 and W < 600 and not level > was_level"),
 }
 COMES = {"Lit": ("ON and seen", "LAMP"), "Dark": ("not ON", "not LAMP and shown == []")}
@@ -116,8 +126,10 @@ def test_plain_values_break_what_the_kit_says(latency: int) -> None:
             watch.judged = tuple(row for row in found.rows if row.id == id)
         observer = Observer(found, found.rows, wires(), steady(), latency)
         given = {name: row["default"] for name, row in PARAMETERS.items()}
-        fixed = {name: plain_value(read_signals({name: row | {"modes": [0, 1, 2, 3, 4]}}, "")[name], given[name])
-                 for name, row in PARAMETERS.items()}
+        fixed = {
+            name: plain_value(read_signals({name: row | {"modes": [0, 1, 2, 3, 4]}}, "")[name], given[name])
+            for name, row in PARAMETERS.items()
+        }
         memory: Mapping[str, Any] = start_of(observer)
         for dt_ms, inputs, outputs in random_scans(seed, 60):
             signals = {**INPUTS, **OUTPUTS}
@@ -156,7 +168,11 @@ def test_terms_give_what_plain_values_give(latency: int) -> None:
             where += list(pairs(symbol, {**seen, **fixed}[name]))
         where += [(symbol, constant(symbol, memory[name])) for name, (symbol, _) in observer.state.items()]
         said = observer.plain(seen, fixed, memory, dt_ms)
-        for table, plain in ((terms.after, said.after), (terms.broken, said.broken), (terms.asked, said.asked)):
+        for table, plain in (
+            (terms.after, said.after),
+            (terms.broken, said.broken),
+            (terms.asked, said.asked),
+        ):
             for name, term in table.items():
                 value = z3.simplify(z3.substitute(term, *where))
                 assert value.eq(z3.simplify(constant(term, plain[name]))), name
