@@ -17,6 +17,11 @@ LoseGuard_LossIsNoError(i) ==
 ResetStatic_StaticResetUnnoticed(i) == FALSE
 
 ----------------------------------------------------------------------------
+\* GLF-07, GL-IN-RESET: an edge is looked for only while the block is active, so that a Reset which is held
+\* while the block is activated is one
+RemembersReset_HeldResetIsAnEdge(i) == resetBefore' = (i.Reset /\ i.Activate /\ state # "Idle")
+
+----------------------------------------------------------------------------
 \* GLF-10, GL-IN-SAFETYACTIVE, GL-OUT-UNLOCKGUARD: an open guard is unlocked before the zone is looked at
 ZoneOpenToIt_OpenGuardNeedsNoSafeZone(i) == ~i.S_SafetyActive /\ i.S_GuardMonitoring /\ ~i.S_GuardLock
 
