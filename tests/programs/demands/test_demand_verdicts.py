@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from modeproof.cli import main
@@ -145,6 +147,16 @@ def test_a_run_is_cut_where_an_assumption_ends() -> None:
         ({"held_ms": {"Reset": 10}}, 4),
     ):
         assert len(Assumed(of, own).fulfilling(run).scans) == scans, own
+
+
+def test_an_input_that_the_page_calls_constant_is_so() -> None:
+    of = make([SWITCH], "sf_enable_switch", codes=False).binding.reference
+    register = of.device.register
+    given = msgspec.structs.replace(register.inputs["S_AutoReset"], constant=True)
+    device = msgspec.structs.replace(register, inputs={**register.inputs, "S_AutoReset": given})
+    found = Assumed(replace(of, device=replace(of.device, register=device)))
+    assert found.constant == ("S_AutoReset",)
+    assert list(found.words()) == ["S_AutoReset: constant during a run, as the page has it"]
 
 
 # ---------------------------------------------------------------- the certificate
