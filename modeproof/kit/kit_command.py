@@ -17,10 +17,10 @@ from modeproof.kit.adapter import Adapter, Program, split_command
 from modeproof.kit.builtin import package_files
 from modeproof.kit.bundle import Bundle, not_published
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.hello import read_hello
 from modeproof.kit.machine_parameters import with_parameters
 from modeproof.kit.machine_reference import program_of
 from modeproof.kit.profile import ALL, LETTER, PROFILES, OfProfile, of_profile
-from modeproof.kit.relation import read_hello
 from modeproof.kit.resume import Resume, identity
 from modeproof.kit.suite_judge import Difference, Options, Plan, Verdict
 from modeproof.kit.text import (

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import marshal
 import time
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.demands import Demand, Watch
-from modeproof.kit.errors import Unjudged, plain
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.hello import read_hello
 from modeproof.kit.signals import shown
 from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
 
@@ -25,24 +26,16 @@ BATCH = 64
 """Scans in one `scans` request."""
 LATENCY = 1
 """Scans that a program may take to show what its inputs ask for, unless it says or is told otherwise."""
+PATIENT_SCANS = 80_000
+"""Scans of a suite that are put once more by the page, with each row of inputs held: what must come may take
+its time, and a suite that changes its inputs in every scan would never wait for it.
+"""
+PATIENCE = 24
+"""Scans for which a row is held then, for each scan that a program may take."""
 STABLE = 2
 """Scans for which settled outputs must stay."""
 MOST_LATENCY = 10_000
-LONGEST_NAME = 100
-"""Characters of what a program calls itself."""
 _REMEMBERED = 20_000
-
-
-@dataclass(frozen=True)
-class Hello:
-    """What a program said about itself."""
-
-    name: str
-    version: str
-    unobserved: tuple[str, ...] = ()
-    lists: bool = False
-    latency: int = 0
-    real_time: bool = False
 
 
 @dataclass(frozen=True)
@@ -118,6 +111,9 @@ class Session:
         if options.relation == MONITOR and (self.watch is None or not self.watch.judged):
             raise Unjudged("nothing is demanded of the outputs that are compared")
         self.scans = 0
+        self.patient = False
+        self._patience = PATIENT_SCANS
+        self._hold, self._lasting, self._patient = self.latency, False, False
         self._good: set[bytes] = set()
         self._kept: dict[int, Any] = {}
         self._keeps = bool(getattr(program, "keeps_answers", False))
@@ -145,6 +141,8 @@ class Session:
             failure = self._settled(case)
         else:
             failure = self._watched(case)
+            if failure is None and case.reset and not case.requests and (self.patient or self._patience > 0):
+                failure = self._patiently(case)
         self._where = (f"{case.id}, after the last scan",)
         return failure
 
@@ -256,6 +254,21 @@ class Session:
         if self._keeps and len(self._kept) < _REMEMBERED:
             self._kept[id(out)] = out
 
+    def _patiently(self, case: Case) -> Failure | None:
+        """By the page once more, each row of inputs held: while time stands still after the first, and while
+        it goes on.
+        """
+        scans, self._hold, failure = self.scans, PATIENCE * max(1, self.granted), None
+        self._patient = True
+        for self._lasting in (False, True):
+            self.program.reset(self._slowed(case.params))
+            if self.watch is not None:
+                self.watch.reset(self._slowed(case.params))
+            failure = failure or self._settled(case)
+        self._patience -= self.scans - scans
+        self._hold, self._lasting, self._patient = self.latency, False, False
+        return failure
+
     # ------------------------------------------------------------------------------------------ settled
 
     def _settled(self, case: Case) -> Failure | None:
@@ -267,7 +280,7 @@ class Session:
             for row in (*((before,) if before else ()), *(s.outputs for s in case.scans[first : last + 1])):
                 for name, values in allowed.items():
                     values.append(row[name])
-            held = max(self.latency, last - first) + STABLE
+            held = max(self._hold, last - first) + STABLE
             times = self._times(case, first, last, held)
             for after, out in enumerate(self._held(case.id, first, event, times)):
                 failure = self._passing(last, event, out, allowed, wanted, after, times[after])
@@ -287,9 +300,11 @@ class Session:
         """The times of an event and of the scans in which its inputs are held: those of the case, as far as
         it has some, for in them something may happen by its time.
         """
-        own = [scan.dt_ms * self.options.slow for scan in case.scans[first : last + 1]]
-        held_for = [ms or self.options.hold_ms for ms in own[1:]]
-        return [own[0], *held_for, *[self.options.hold_ms] * (held - len(held_for))]
+        still = self._patient and not self._lasting and first > 0
+        own = [0 if still else scan.dt_ms * self.options.slow for scan in case.scans[first : last + 1]]
+        rest = own[0] if self._lasting or (self._patient and not first) else self.options.hold_ms
+        held_for = [ms or rest for ms in own[1:]]
+        return [own[0], *held_for, *[rest] * (held - len(held_for))]
 
     def _held(self, id: str, first: int, event: Scan, times: Sequence[int]) -> Iterator[Mapping[str, Any]]:
         """The outputs after an event and in the scans in which its inputs are held."""
@@ -409,38 +424,3 @@ def groups(case: Case) -> Iterator[tuple[int, int]]:
 
 def _differ(got: Mapping[str, Any], wanted: Mapping[str, Any], names: Sequence[str]) -> bool:
     return any(got[name] != wanted[name] for name in names)
-
-
-def read_hello(answer: Mapping[str, Any], outputs: Container[str], relation: str = EXACT) -> Hello:
-    """Check the answer to hello of a target with these outputs. Raises Unjudged when the relation is not
-    possible with it.
-    """
-    if not isinstance(answer, Mapping) or answer.get("ok") is not True:
-        raise Unjudged(f"hello was answered with {shown(answer, 200)}")
-    offered = answer.get("relations", [EXACT])
-    # Who answers scan by scan also settles, and who settles can be watched.
-    enough = {EXACT: (EXACT,), SETTLED: (EXACT, SETTLED), MONITOR: (EXACT, SETTLED, MONITOR)}[relation]
-    if not isinstance(offered, list) or not any(accepted in offered for accepted in enough):
-        raise Unjudged(f"the adapter does not offer relation {relation}: {shown(offered)}")
-    time_is = answer.get("time", "virtual")
-    if time_is not in ("virtual", "real") or (relation == EXACT and time_is != "virtual"):
-        raise Unjudged(f"relation {relation} needs virtual time, the adapter has {shown(time_is)}")
-    latency = answer.get("max_latency_scans", 0)
-    if type(latency) is not int or latency < 0 or (relation == EXACT and latency != 0):
-        raise Unjudged(f"relation {relation} allows no latency, the adapter has {shown(latency)} scans")
-    unobserved = answer.get("unobserved", [])
-    if not isinstance(unobserved, list) or not all(
-        isinstance(name, str) and name in outputs for name in unobserved
-    ):
-        raise Unjudged(f"unobserved must list outputs of the target, got {shown(unobserved)}")
-    lists = answer.get("scans", False)
-    if type(lists) is not bool:
-        raise Unjudged(f"scans must be true or false, got {shown(lists)}")
-    return Hello(
-        name=plain(answer.get("name", ""), LONGEST_NAME) or "unnamed",
-        version=plain(answer.get("version", ""), LONGEST_NAME),
-        unobserved=tuple(dict.fromkeys(unobserved)),
-        lists=lists,
-        latency=latency,
-        real_time=time_is == "real",
-    )

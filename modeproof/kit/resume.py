@@ -12,7 +12,7 @@ from typing import Any
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.files import write_json
-from modeproof.kit.relation import Hello
+from modeproof.kit.hello import Hello
 from modeproof.kit.signals import loads
 from modeproof.kit.vectors import Suite, content_hash
 

@@ -17,7 +17,8 @@ from modeproof.kit.builtin import reference
 from modeproof.kit.demands import Watch
 from modeproof.kit.diagnosis import timing
 from modeproof.kit.errors import Unjudged, suggestion
-from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
+from modeproof.kit.hello import Hello, read_hello
+from modeproof.kit.relation import Failure, Options, Session
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
 from modeproof.kit.vectors import EXACT, MONITOR, WIRING, Case, Scan, Suite
 from modeproof.kit.verdict import (
@@ -399,6 +400,8 @@ def _difference(suite: Suite, case: Case, failure: Failure) -> Difference:
 def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure, plan: Plan) -> Difference:
     """The difference with a shorter case, as far as `effort` and time go. May raise Unjudged."""
     left, ends = plan.effort, time.monotonic() + SHRINKING_S
+
+    session.patient = failure.since is not None
 
     def judged(case: Case) -> Failure | None:
         nonlocal left

@@ -130,10 +130,11 @@ def _word(verdicts: Sequence[Verdict]) -> str:
         f"{verdict.only} of {verdict.suite}" if verdict.only else verdict.suite for verdict in verdicts
     )
     if first.word == FOLLOWS:
-        put = {name for verdict in verdicts for name, count in verdict.properties.items() if count}
         known = {name for verdict in verdicts for name in (*verdict.properties, *verdict.unjudged)}
         scans = "scan" if first.latency == 1 else "scans"
-        notes = [f"{len(put)} of {len(known)} demands, {suites}; within {first.latency} {scans}"]
+        judged = known - {name for verdict in verdicts for name in verdict.unjudged}
+        count = f"{len(known)}" if judged == known else f"{len(judged)} of {len(known)}"
+        notes = [f"{count} demands, {suites}; within {first.latency} {scans}"]
     else:
         notes = [f"{first.relation}, {suites}"]
     if first.profile and first.word != FOLLOWS:
@@ -192,7 +193,7 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
         if put:
             lines.append(f"demands, put in so many scans each (within {verdict.latency} scans): {put}")
         if never:
-            lines.append("never put to the program, so not judged: " + ", ".join(never))
+            lines.append("never in a scan for which they say something: " + ", ".join(never))
     if verdict.params and verdict.relation != EXACT:
         lines.append("waits are those of the suite: with these parameters a limit may lie between two scans")
     if verdict.unjudged:

@@ -75,7 +75,8 @@ class Difference:
     def in_a_line(self) -> str:
         """Where the first wrong scan is, and what is wrong there."""
         wrong = [
-            f"{name} is {json.dumps(self.got.get(name, self.got))}, expected {json.dumps(wanted)}"
+            f"{name} is {json.dumps(self.got.get(name, self.got))}"
+            + ("" if self.broken else f", expected {json.dumps(wanted)}")
             for name, wanted in self.expected.items()
         ]
         more = f", and {len(wrong) - MOST_TOLD} more" if len(wrong) > MOST_TOLD else ""

@@ -17,6 +17,7 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import add_document_option, chosen_documents, documents
 from modeproof.ground.places import root as repository_root
 from modeproof.registers.citations import read_sources
+from modeproof.registers.demands_page import demands_pages
 from modeproof.registers.document_page import page, page_name, picture_name, tables_of, tellings
 from modeproof.registers.findings_page import findings_pages
 from modeproof.registers.load import load_document
@@ -88,6 +89,7 @@ def rendered(document: Document) -> dict[str, str]:
     texts = {
         page_name(name): page(document, read_sources(document), _tables(document)),
         **findings_pages(document),
+        **demands_pages(document),
     }
     if curves := curves_of(place, name):
         texts[picture_name(name)] = chart(curves)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from modeproof.ground.errors import suggestion
 from modeproof.registers.citations import Sources
+from modeproof.registers.demands_page import check_demands
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.profiles import check_profiles
 from modeproof.registers.rows import Device, Document, Problem, Signal
@@ -39,6 +40,7 @@ def cross_check(document: Document, sources: Sources) -> list[Problem]:
         *_assumptions(document),
         *_runs(document, sources),
         *check_faults(document),
+        *check_demands(document),
     ]
 
 
@@ -200,9 +202,6 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(
                 file, finding.id, "names no evidence, and `evidence_open` does not say what is open"
             )
-        if (finding.severity == "hazard") != (len(finding.readings) == 1):
-            text = f"{len(finding.readings)} readings and class {finding.severity}; a hazard of the text as "
-            yield Problem(file, finding.id, text + "it stands has one reading, any other finding has more")
         if match := PROMISE.search(finding.evidence_open):
             yield Problem(
                 file, finding.id, _promise("evidence_open", match.group(), "why no model can show it")

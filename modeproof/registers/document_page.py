@@ -16,6 +16,7 @@ from typing import Any
 
 from modeproof.ground.fitted import fitted
 from modeproof.registers.citations import Sources
+from modeproof.registers.demands_page import demands_name, demands_pages
 from modeproof.registers.files import markdown, read_text, read_toml
 from modeproof.registers.findings_page import (
     CLASSES,
@@ -72,7 +73,7 @@ def check_document_page(document: Document, sources: Sources) -> list[Problem]:
             cause = f"the table of {telling.run} is missing, was changed by hand, or its run has changed"
             problems.append(Problem(name, "", stale(cause, document.name)))
     if not problems:
-        pages = {name: page(document, sources, tables), **findings_pages(document)}
+        pages = {name: page(document, sources, tables), **findings_pages(document), **demands_pages(document)}
         for name, expected in pages.items():
             there = (document.root / name).is_file()
             text = read_text(document.root, document.root / name) if there else ""
@@ -326,8 +327,13 @@ def falls_of(document: Document, run: Run) -> Property | None:
 
 def _findings(document: Document) -> str:
     page = Path(findings_name(document.name)).name
+    demanded = ""
+    if demands_pages(document):
+        name = Path(demands_name(document.name)).name
+        demanded = f"What the sentences demand of a program, and which demand nothing: [demands]({name}).\n\n"
     return (
-        "## Findings\n\n"
+        "## Demands and findings\n\n"
+        f"{demanded}"
         "Where the text contradicts itself, is silent, or can be read in more than one way: "
         f"[{counted(document)}]({page}).\n"
     )

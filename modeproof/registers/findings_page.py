@@ -9,13 +9,9 @@ from pathlib import PurePosixPath
 from modeproof.ground.fitted import fitted
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
+from modeproof.registers.standing import CLASSES as CLASSES
+from modeproof.registers.standing import FORBIDDEN, OPEN, UNASKED, standings
 
-CLASSES = {
-    "safety": "Safety: the other reading starts the machine, or hides a fault",
-    "hazard": "Hazard: the text has one reading, which leaves something to the machine",
-    "availability": "Availability: the other reading stops the machine or its user",
-    "wording": "Wording: no effect once it is noticed",
-}
 LARGEST = 40_000
 """Bytes of a page that a person still reads."""
 _BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
@@ -30,19 +26,19 @@ def findings_name(document: str) -> str:
 
 
 def findings_pages(document: Document) -> dict[str, str]:
-    """The pages by their paths: one, or one for safety and one for the rest where one would be too large."""
+    """The pages by their paths: one, or two where one would be too large; what weighs most comes first."""
     name = findings_name(document.name)
-    whole = _page(document, list(CLASSES), "")
+    ranked = sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
+    whole = _page(document, ranked, "")
     if len(whole.encode("utf-8")) <= LARGEST:
         return {name: whole}
     rest = name.replace("-findings.md", "-other-findings.md")
-    safety, *others = CLASSES
-    return {
-        name: _page(
-            document, [safety], f" Those of safety are here, [the others apart]({PurePosixPath(rest).name})."
-        ),
-        rest: _page(document, others, f" Those of safety have [their own page]({PurePosixPath(name).name})."),
-    }
+    many = f" Those that weigh most are here, [the others apart]({PurePosixPath(rest).name})."
+    few = f" Those that weigh most have [their own page]({PurePosixPath(name).name})."
+    count = len(ranked)
+    while count > 1 and len(_page(document, ranked[:count], many).encode("utf-8")) > LARGEST:
+        count -= 1
+    return {name: _page(document, ranked[:count], many), rest: _page(document, ranked[count:], few)}
 
 
 def counted(document: Document) -> str:
@@ -52,7 +48,7 @@ def counted(document: Document) -> str:
     return f"{len(document.findings)} findings, {numbers}"
 
 
-def _page(document: Document, classes: Sequence[str], more: str) -> str:
+def _page(document: Document, findings: Sequence[Finding], more: str) -> str:
     name = document.name
     lines = [
         f"# Findings in: {document.about.title}",
@@ -66,8 +62,8 @@ def _page(document: Document, classes: Sequence[str], more: str) -> str:
         f"the document. All readings: [findings.toml](../{document.source('findings')}). Below, `modeproof` "
         "is `.venv/bin/modeproof`.",
     ]
-    for severity in classes:
-        rows = [finding for finding in document.findings if finding.severity == severity]
+    for severity in CLASSES:
+        rows = [finding for finding in findings if finding.severity == severity]
         if rows:
             lines += ["", f"## {CLASSES[severity]}"]
         for finding in rows:
@@ -82,9 +78,26 @@ def _finding(document: Document, finding: Finding) -> list[str]:
         readings = "; ".join(f"({number}) {text}" for number, text in enumerate(finding.readings, 1))
         lines.append(f"- *Readings:* {readings}.")
     lines.append(f"- *Decided:* {sentence(finding.decision)}")
-    if finding.severity != "wording":
+    if said := _said_of(document, finding):
+        lines.append(f"- *Of the page:* {said}.")
+    if finding.severity != "untried":
         lines.append(f"- *Otherwise:* {sentence(finding.consequence)} {evidence_of(document, finding)}")
     return lines
+
+
+def _said_of(document: Document, finding: Finding) -> str:
+    """What the demands say of each reading that was tried alone."""
+    words = []
+    for one in standings(finding, document.runs):
+        if one.word == UNASKED:
+            continue
+        shown = f"`{one.reading}` is {one.word}"
+        if one.word == OPEN:
+            shown += f" (every demand holds: `{one.run}`)"
+        else:
+            shown += f" ({'demand ' if one.word == FORBIDDEN else ''}`{one.broken}` falls: `{one.run}`)"
+        words.append(shown)
+    return "; ".join(words)
 
 
 def evidence_of(document: Document, finding: Finding) -> str:

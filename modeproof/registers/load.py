@@ -30,6 +30,7 @@ from modeproof.registers.rows import (
     Signal,
 )
 from modeproof.registers.runs import load_runs
+from modeproof.registers.standing import class_of
 from modeproof.registers.typed import DEFAULT, Table, only_keys, tables, typed, typed_rows
 
 Row = TypeVar("Row")
@@ -51,7 +52,7 @@ def load_document(root: Path, name: str) -> Document:
     assumed = read_register(root, name, "assumptions", "assumption", "fault", "faults")
     at_faults = f"spec/{name}/assumptions.toml"
     faults = typed(Faults, assumed.get("faults", {}), f"{at_faults}: [faults]")
-    interface, demands = load_interface(root, name), load_demand_rows(root, name)
+    interface, demands, runs = load_interface(root, name), load_demand_rows(root, name), load_runs(root, name)
     return Document(
         root=root,
         name=name,
@@ -65,9 +66,11 @@ def load_document(root: Path, name: str) -> Document:
             ),
             *as_properties(root, name, demands, interface),
         ),
-        findings=load_findings(root, name),
+        findings=tuple(
+            msgspec.structs.replace(row, severity=class_of(row, runs)) for row in load_findings(root, name)
+        ),
         assumptions=typed_rows(Assumption, at_faults, assumed, "assumption"),
-        runs=load_runs(root, name),
+        runs=runs,
         faults=typed_rows(Fault, at_faults, assumed, "fault") if "fault" in assumed else (),
         faults_summary=faults.summary,
         matrix=faults.matrix,
@@ -83,8 +86,13 @@ def load_clauses(root: Path, name: str) -> tuple[About, tuple[Clause, ...]]:
 
 
 def load_findings(root: Path, name: str) -> tuple[Finding, ...]:
-    """The findings; needs no other register. Raises Unjudged like `load_document`."""
-    return _rows(root, name, "findings", "finding", Finding)
+    """The findings, without their classes; needs no other register. Raises Unjudged like `load_document`."""
+    found = _rows(root, name, "findings", "finding", Finding)
+    if typed_one := next((row.id for row in found if row.severity), ""):
+        raise Unjudged(
+            f"spec/{name}/findings.toml: {typed_one}: severity is computed from the runs: remove it"
+        )
+    return found
 
 
 def _clauses(source: str, data: Table) -> Iterator[Clause]:

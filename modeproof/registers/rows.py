@@ -173,7 +173,7 @@ class Telling(Entry, frozen=True, kw_only=True):
 class Finding(Entry, frozen=True, kw_only=True):
     """Where the document is wrong or silent, and what was decided.
 
-    A hazard has one reading, all others have more.
+    `severity`, its class, is computed from the runs (modeproof.registers.standing), and never typed.
     `tries` are the readings, by the names that they have in the specification, that runs of its evidence try;
     `parameter` is the constant of the specification that leaves the choice to the project.
     """
@@ -185,7 +185,7 @@ class Finding(Entry, frozen=True, kw_only=True):
     readings: SomeTexts
     consequence: Text
     decision: Text
-    severity: Literal["safety", "hazard", "availability", "wording"] = field(name="class")
+    severity: str = ""
     drawing_could_settle: bool
     tries: Texts = ()
     parameter: str = ""

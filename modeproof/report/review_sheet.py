@@ -33,14 +33,15 @@ class Answer:
 
 
 QUESTIONS = {
-    "safety": "Safety, and no drawing can settle it: is the decision right for the machine?",
+    "safety": "A property of ours falls, no drawing can settle it: is the decision right for the machine?",
     "assumption": "What the machine must ensure: does somebody ensure it, and was it checked?",
     "hazard": "Hazard of the text as it stands: is what it leaves to the machine taken care of?",
-    "drawing": "Safety, and a drawing could settle it: does the drawing say what was decided?",
+    "drawing": "A property of ours falls, a drawing could settle it: does it say what was decided?",
     "requirement": "Requirements: are these the safety requirements that are meant, and is none missing?",
     "model": "What the model leaves out or merges: does that hide nothing that matters?",
-    "availability": "What stops the machine or the user: is the decision acceptable?",
-    "wording": "Slips of the text: are they read as they are meant?",
+    "open": "Open, and nothing that we ask falls: is the decision acceptable?",
+    "decided": "Decided by the page: is the sentence read as it is meant?",
+    "untried": "No reading was tried by a run: is the text read as it is meant?",
     "clause": "The paper in our words: does each sentence say what the paper says?",
 }
 """The groups, the most important first, each with its question."""

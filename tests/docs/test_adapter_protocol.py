@@ -11,7 +11,8 @@ import pytest
 
 from modeproof.kit.adapter import LONGEST_REFUSAL
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.relation import MOST_LATENCY, read_hello
+from modeproof.kit.hello import read_hello
+from modeproof.kit.relation import MOST_LATENCY
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.kinds import SUITES
 

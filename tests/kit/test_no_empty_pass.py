@@ -57,7 +57,7 @@ def test_what_a_suite_cannot_put_is_counted_in_the_word(tmp_path: Path) -> None:
     rule = {"id": "Never", "says": "x", "clauses": [], "when": "False", "holds": "True"}
     demands = {**DEMANDS, "demands": [*DEMANDS["demands"], rule]}  # type: ignore[misc]
     text = as_text(judged(made(tmp_path, "sic", demands), Lamp, "monitor"))
-    assert text.endswith("FOLLOWS(1 of 2 demands, sic; within 1 scan)")
+    assert text.endswith("FOLLOWS(2 demands, sic; within 1 scan)")
 
 
 def test_latency_hides_nothing_where_inputs_are_not_held(tmp_path: Path) -> None:

@@ -101,7 +101,6 @@ says = "nothing"
 readings = ["at once", "later"]
 consequence = "none"
 decision = "at once"
-class = "wording"
 drawing_could_settle = true
 tries = []
 evidence = ["NEG_Latch", "the_bolt_moves"]

@@ -98,7 +98,7 @@ def test_a_default_or_an_id_that_is_wrong_is_refused(tree: Any, old: str, new: s
         ("interface", '"Open", "Shut"', '"Open", "Open"', ["devices.latch: states holds 'Open' twice"]),
         ("interface", '"CloseLatch", "OpenLatch"', "", ["devices.latch: steps: must not be empty"]),
         ("properties", '"invariant"', '"invariants"', ["OpenIsUnlocked: kind", "did you mean 'invariant'?"]),
-        ("findings", "class", "klass", ["[[finding]] E-01", "did you mean 'class'?"]),
+        ("findings", "says", "sayz", ["[[finding]] E-01", "did you mean 'says'?"]),
         ("findings", "= true", '= "yes"', ["drawing_could_settle", "must be true or false, not 'yes'"]),
         ("assumptions", '"assumption"', '"guess"', ["[[assumption]] A-01: kind", "'guess'", "merged step"]),
         ("runs", '"smoke"', '"smok"', ["run MC_Latch: lanes[0]", "did you mean 'smoke'?"]),

@@ -59,13 +59,6 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "]",
             "DR-1-1: no property and no theorem cites this behaviour",
         ),
-        (
-            SPEC + "findings.toml",
-            '["at once", "later"]',
-            '["at once"]',
-            "E-01: 1 readings and class wording; a hazard of the text as it stands has one reading",
-        ),
-        (SPEC + "findings.toml", '"wording"', '"hazard"', "E-01: 2 readings and class hazard; a hazard"),
         # work that no clause asks for
         (LATCH, "\\* DR-1-1\n", "\\* nothing\n", "Latch!OpenLatch: the step cites no clause and no finding"),
         (CODE, "open. DR-1-1", "open.", "power_up: the function is public and cites no clause"),

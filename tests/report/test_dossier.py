@@ -260,7 +260,7 @@ def test_findings_stand_by_class_the_worst_first(root: Path) -> None:
     html = make(root).html
     order = [html.index(f'id="finding-{id}"') for id in ("E-01", "E-02")]
     assert order == sorted(order) and html.index("a drawing could settle it</h3>") < order[0]
-    assert html.index("Wording: no effect") < order[1]
+    assert html.index("Not judged by a run: no reading") < order[1]
 
 
 def test_a_finding_names_the_shortest_ways_and_what_is_missing(root: Path) -> None:

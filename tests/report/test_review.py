@@ -57,7 +57,7 @@ def test_every_entry_stands_in_one_row_and_what_matters_first(root: Path) -> Non
         ("box A-01", "assumption"),
         ("box E-01", "drawing"),
         ("box ShutsOverDoor", "requirement"),
-        ("box E-02", "wording"),
+        ("box E-02", "untried"),
         ("box BX-1-1", "clause"),
         ("box BX-1-2", "clause"),
     ]

@@ -8,6 +8,7 @@ from typing import Any
 from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
+from modeproof.registers.standing import CLASSES as CLASSES_OF_ALL
 from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
@@ -17,11 +18,9 @@ ID = "findings"
 MOST = 2
 """So many counterexamples of a finding are named on paper."""
 CLASSES = (
-    ("safety", False, "Safety, and no drawing can settle it"),
-    ("safety", True, "Safety, and a drawing could settle it"),
-    ("hazard", None, "Hazard: the text has one reading, and leaves something to the machine"),
-    ("availability", None, "Availability: the machine or the user is stopped"),
-    ("wording", None, "Wording: no effect once it is noticed"),
+    ("safety", False, "A property of ours falls, no demand excludes it, and no drawing can settle it"),
+    ("safety", True, "A property of ours falls, no demand excludes it, and a drawing could settle it"),
+    *((name, None, CLASSES_OF_ALL[name]) for name in ("hazard", "open", "decided", "untried")),
 )
 """Class, whether a drawing could settle it (None: either), and what that is called; the worst first."""
 
