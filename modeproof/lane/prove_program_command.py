@@ -17,6 +17,7 @@ from modeproof.kit.kit_command import quoted
 from modeproof.output.options import About, add_options, carried_out
 from modeproof.output.outcome import Outcome, shown_path
 
+MOST_LATENCY = 8
 SECONDS = 300
 """Limit of a search, of CPU time, where --seconds names no other."""
 
@@ -25,11 +26,19 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `prove-program` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "prove-program",
-        description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
-        "which they differ. UNKNOWN (2): neither.",
+        description="With --target: FOLLOWS the page (0): all its demands hold in every scan from power-up. "
+        "BREAKS one (1): the scans that show it. UNKNOWN (2): neither. Then whether it is the same as the "
+        "reference, which --same asks for too.",
     )
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
     parser.add_argument("--target", metavar="T", help="a published target, as in vectors/")
+    parser.add_argument(
+        "--same", action="store_true", help="equal outputs to the reference are asked for, too"
+    )
+    parser.add_argument(
+        "--codes", action="store_true", help="with outputs that no page prints (codes of ours); means --same"
+    )
+    parser.add_argument("--latency", type=int, metavar="N", help="scans that a reaction may take (1)")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
     parser.add_argument(
@@ -88,7 +97,9 @@ def about(args: argparse.Namespace) -> About:
     for name in ("target", "property", "unit", "binding"):
         if (given := getattr(args, name)) is not None:
             words += [f"--{name}", given]
-    words += ["--wrap"] * args.wrap
+    if args.latency is not None:
+        words += ["--latency", args.latency]
+    words += ["--same"] * (args.same and not args.codes) + ["--codes"] * args.codes + ["--wrap"] * args.wrap
     return About(
         command="prove-program",
         subject=", ".join(map(shown_path, args.files)),
@@ -122,12 +133,28 @@ def _look(args: argparse.Namespace) -> None:
             "your own; or a certificate alone, with --recheck"
         )
     beside = {
-        "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds", "record"),
-        "property": ("vector",),
+        "recheck": (
+            "binding",
+            "unit",
+            "wrap",
+            "certificate",
+            "vector",
+            "junit",
+            "json",
+            "seconds",
+            "record",
+            "same",
+            "codes",
+            "latency",
+        ),
+        "property": ("vector", "same", "codes", "latency"),
     }
     for name in beside.get(asked[0], ()):
         if getattr(args, name) not in (None, False):
             raise Unjudged(f"--{name} has no effect with --{asked[0]}; leave it out")
+    args.same = args.same or args.codes
+    if not 0 <= (args.latency or 0) <= MOST_LATENCY:
+        raise Unjudged(f"--latency {args.latency}: 0 to {MOST_LATENCY} scans")
     args.seconds = SECONDS if args.seconds is None else args.seconds
     if not 0 < args.seconds < math.inf:
         raise Unjudged(f"--seconds {args.seconds:g}: a time above 0 is needed")

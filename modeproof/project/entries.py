@@ -30,6 +30,7 @@ class Binding(Entry, frozen=True, kw_only=True):
     parameters: dict[str, Any] = msgspec.field(default_factory=dict)
     left_out: tuple[str, ...] = ()
     profile: Literal["letter", "cautious"] | None = None
+    assume: dict[str, Any] = msgspec.field(default_factory=dict)
 
     @property
     def unfinished(self) -> list[str]:
@@ -77,7 +78,7 @@ class Program(Row, frozen=True, kw_only=True):
 
     KIND = "program"
     PATHS = ("files", "own", "binding")
-    OPTIONS = ("target", "own", "unit", "wrap", "seconds")
+    OPTIONS = ("target", "own", "unit", "same", "codes", "latency", "wrap", "seconds")
 
     files: SomeTexts
     target: Text | None = None
@@ -85,6 +86,9 @@ class Program(Row, frozen=True, kw_only=True):
     unit: Text | None = None
     binding: Text | Binding | None = None
     profile: Literal["letter", "cautious"] | None = None
+    same: bool = False
+    codes: bool = False
+    latency: int | None = None
     wrap: bool = False
     seconds: Seconds | None = None
 
@@ -94,6 +98,8 @@ class Program(Row, frozen=True, kw_only=True):
             return "needs `target`, or `property` for a program of your own; one of the two"
         if self.own is not None and (self.binding is not None or self.profile is not None):
             return "`binding` and `profile` belong to `target`; properties use the names of the program"
+        if self.own is not None and (self.same or self.codes or self.latency is not None):
+            return "`same`, `codes` and `latency` belong to `target`"
         if self.profile is not None and isinstance(self.binding, str):
             return f"`profile` stands in {self.binding}, the file of the binding; leave it out here"
         if self.profile is not None and isinstance(self.binding, Binding) and self.binding.profile:

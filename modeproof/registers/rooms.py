@@ -38,7 +38,7 @@ RULES = (
         "programs",
         (
             *("programs", "proofs", "modeproof/registers", "modeproof/ground", "modeproof/kit"),
-            "modeproof/output",
+            *("modeproof/output", "modeproof/suites/demands"),
         ),
     ),
     Rule(
@@ -82,7 +82,8 @@ ROOMS = (
     "proofs",
     *("modeproof/tlc", "modeproof/graph", "modeproof/suites", "modeproof/strength", "modeproof/trace"),
     *("programs/language", "programs/semantics", "programs/readers", "programs/invariants"),
-    *("programs/equality", "programs/properties", "programs/certificates", "programs/commands"),
+    *("programs/equality", "programs/demands", "programs/properties", "programs/certificates"),
+    "programs/commands",
     "machines",
     "modeproof/report",
     *("modeproof/simulate/program", "scenes", "modeproof/simulate/program/page", "modeproof/simulate"),

@@ -8,13 +8,12 @@ What makes a property say something, its trigger, is shown by scans from power-u
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import z3
-
 from modeproof.ground.errors import Unjudged
+from programs.certificates import inductive
 from programs.certificates.certificate_folder import (
     VERSION,
     Obligation,
@@ -22,18 +21,16 @@ from programs.certificates.certificate_folder import (
     digest,
     empty,
     fill,
-    obligation,
     record_in,
     reference_files,
     tools,
 )
-from programs.certificates.smt_lib import Printer
-from programs.invariants.induction import DEEPEST, Proof, System, Unrolled, conjuncts
+from programs.certificates.inductive import Claim, read_invariants
+from programs.invariants.induction import DEEPEST, Proof
 from programs.properties.property_file import read_questions
 from programs.properties.property_verdicts import Found, Judgement, never
 from programs.properties.transition_system import Asked, Cell, Scans
 from programs.readers.sources import read_sources
-from programs.semantics.terms import names_in
 
 FORMAT: Final = "modeproof-property-certificate"
 TRUSTED: Final = (
@@ -49,89 +46,13 @@ TRUSTED: Final = (
 
 def obligations(judgement: Judgement, found: Sequence[tuple[Asked, Proof]]) -> Iterator[Obligation]:
     """For each property what must be `unsat`, so that its proof is one."""
-    printer = Printer()
-    for number, (asked, proof) in enumerate(found, 1):
-        bad = judgement.plainly_bad(asked)
-        system = judgement.whole.cone(bad, *proof.lemmas)
-        together = [*conjuncts(system.within), *proof.lemmas]
-        where = [(term, system.after[path]) for path, term in system.state.items()]
-        scan = z3.And(*together, system.assumed, system.inside)
-        questions = {}
-        for count, part in enumerate(together, 1):
-            what = f"the range or invariant {count} of {len(together)}"
-            questions[f"not: {what} is true at power-up"] = z3.And(system.first, z3.Not(part))
-            questions[f"not: {what} survives a scan"] = z3.And(scan, z3.Not(z3.substitute(part, *where)))
-        for last in range(proof.deep):
-            facts = _scans(system, proof.lemmas, bad, last, True)
-            questions[f"not: scan {last + 1} from power-up has the property"] = z3.And(*facts)
-        facts = _scans(system, proof.lemmas, bad, proof.deep - 1, False)
-        before = f"{proof.deep - 1} scans with it" if proof.deep > 1 else "what is known"
-        questions[f"not: after {before} a scan has the property"] = z3.And(*facts)
-        sentence = f"{asked.id}: {asked.text}"
-        yield obligation(printer, number, asked.id, sentence.replace("\n", " "), {}, questions)
-
-
-def _scans(
-    system: System, lemmas: Sequence[z3.BoolRef], bad: z3.BoolRef, last: int, from_start: bool
-) -> list[z3.BoolRef]:
-    """Scans up to number `last`, counted from 0, of which that one alone is without the property."""
-    unrolled = Unrolled(system, lemmas, from_start)
-    for number in range(last):
-        unrolled.add(z3.Not(unrolled.put(bad, number)))
-        unrolled.more()
-    unrolled.add(unrolled.put(bad, last))
-    return unrolled.facts
+    claims = [Claim(asked.id, asked.text, judgement.plainly_bad(asked), proof) for asked, proof in found]
+    yield from inductive.obligations(judgement.whole, claims)
 
 
 def pruned(judgement: Judgement, asked: Asked, proof: Proof) -> Proof:
-    """The proof over the whole program, with the invariants alone that it needs. Raises TimeoutError.
-
-    A value that no scan changes is an invariant here; the search has put it in the place of its name.
-    """
-    known = [symbol == value for symbol, value in judgement.whole.constants]
-    every = [part for lemma in (*proof.lemmas, *known) for part in conjuncts(lemma)]
-    bad = judgement.plainly_bad(asked)
-    system = judgement.whole.cone(bad, *proof.lemmas)
-    names = {str(term) for term in system.state.values()}
-    every = [part for part in every if names_in([part]) <= names]
-    where = [(term, system.after[path]) for path, term in system.state.items()]
-    scan = [system.within, system.assumed, system.inside]
-
-    def surviving(part: z3.BoolRef) -> list[z3.BoolRef]:
-        return _core([*scan, z3.Not(z3.substitute(part, *where))], every, lambda lemma: [lemma])
-
-    last = _scans(system, (), bad, proof.deep - 1, False)
-    new = _core(last, every, lambda lemma: _at_each(system, lemma, proof.deep))
-    new += surviving(system.within)
-    needed: list[z3.BoolRef] = []
-    while new:
-        part = new.pop()
-        if not any(part.eq(other) for other in needed):
-            needed.append(part)
-            new += surviving(part)
-    return replace(proof, lemmas=tuple(needed))
-
-
-def _at_each(system: System, part: z3.BoolRef, deep: int) -> list[z3.BoolRef]:
-    """An invariant before each of so many scans."""
-    unrolled = Unrolled(system, [], False)
-    for _ in range(deep - 1):
-        unrolled.more()
-    return [unrolled.put(part, number, False) for number in range(deep)]
-
-
-def _core(known: Sequence[Any], lemmas: Sequence[Any], put: Any) -> list[Any]:
-    """The invariants that make what is known unsatisfiable. Raises TimeoutError: they were not seen to."""
-    solver = z3.Solver()
-    solver.set("timeout", 60_000)
-    solver.add(*known)
-    marks = [z3.Bool(f"invariant {number}!") for number in range(len(lemmas))]
-    for mark, lemma in zip(marks, lemmas, strict=True):
-        solver.add([z3.Implies(mark, formula) for formula in put(lemma)])
-    if (answer := solver.check(*marks)) != z3.unsat:
-        raise TimeoutError(f"the invariants were not seen to be enough: {answer}")
-    names = {str(mark) for mark in solver.unsat_core()}
-    return [lemma for mark, lemma in zip(marks, lemmas, strict=True) if str(mark) in names]
+    """The proof with the invariants alone that it needs. Raises TimeoutError."""
+    return inductive.pruned(judgement.whole, judgement.plainly_bad(asked), proof)
 
 
 # ---------------------------------------------------------------- writing
@@ -170,24 +91,7 @@ def write(judgement: Judgement, found: Sequence[Found], properties: Path, folder
 def _kept(judgement: Judgement, found: Found) -> Proof:
     """The proof as it will be read again."""
     assert found.proof is not None
-    proof = pruned(judgement, found.asked, found.proof)
-    lemmas = read_invariants(judgement.whole, [lemma.sexpr() for lemma in proof.lemmas])
-    return replace(proof, lemmas=lemmas)
-
-
-def read_invariants(system: System, texts: Sequence[str]) -> tuple[z3.BoolRef, ...]:
-    """Formulas over the memory of a system. Raises ValueError: no such formula."""
-    declared = "".join(f"{term.decl().sexpr()}\n" for term in system.state.values())
-    found = []
-    for text in texts:
-        try:
-            read = z3.parse_smt2_string(f"{declared}(assert {text})")
-        except z3.Z3Exception as error:
-            raise ValueError(f"no invariant: {' '.join(str(error).split())[:100]}") from None
-        if len(read) != 1:
-            raise ValueError(f"not one invariant: {text[:60]}")
-        found.append(read[0])
-    return tuple(found)
+    return inductive.kept(judgement.whole, judgement.plainly_bad(found.asked), found.proof)
 
 
 def claim(judgement: Judgement, properties: Path) -> dict[str, Any]:

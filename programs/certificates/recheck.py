@@ -6,20 +6,24 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cvc5
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs.certificates import property_certificate
+from programs.certificates import demand_certificate, property_certificate
 from programs.certificates.certificate_folder import NAME, Obligation, record_in
 from programs.certificates.equality_certificate import FORMAT, obligations, read
+from programs.demands.verdicts import Judgement as DemandJudgement
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
 from programs.invariants.induction import Proof
 from programs.properties.property_verdicts import Judgement
 from programs.properties.transition_system import Asked
 
+FOLLOWS = "follows"
+"""The folder in the certificate of equality that holds that of the demands."""
 LIMIT_MS = 300_000
 """For one obligation, of the clock."""
 
@@ -82,9 +86,44 @@ def recheck(folder: Path) -> Rechecked:
 
     Raises Unjudged: the sources, the binding or the reference have changed, or the certificate was edited.
     """
-    if record_in(folder, FORMAT, property_certificate.FORMAT)["format"] == FORMAT:
-        return _equality(folder)
-    return _properties(folder)
+    kinds = {
+        FORMAT: _equality,
+        property_certificate.FORMAT: _properties,
+        demand_certificate.FORMAT: _demands,
+    }
+    return kinds[record_in(folder, *kinds)["format"]](folder)
+
+
+def _demands(folder: Path) -> Rechecked:
+    kept = demand_certificate.read(folder)
+    judgement = kept.judgement()
+    proofs = kept.proofs(judgement)
+    owed = demand_certificate.obligations(judgement, proofs)
+    kept.compare({part.file: part.text for part in owed})
+    answers = _asked(folder, owed)
+    return Rechecked(answers, list(_about_demands(kept.record, judgement, proofs, answers)))
+
+
+def _about_demands(
+    record: Mapping[str, Any],
+    judgement: DemandJudgement,
+    proofs: Sequence[Any],
+    answers: Answers,
+) -> Iterator[str]:
+    name = f"{record['unit']} of {', '.join(record['sources'])}"
+    count = sum(bool(asked.clauses) for asked, _ in proofs)
+    if answers.status == 0:
+        yield f"{answers.word}: {name} FOLLOWS the page ({record['document']}): {count} demands, for ever"
+    else:
+        yield f"{answers.word}: {answers.folder} does not show that {name} follows the page"
+    for asked, proof in proofs:
+        count = len(proof.lemmas)
+        scans = f"{proof.deep} scan{'s' * (proof.deep != 1)}"
+        yield f"  {asked.id}: {asked.says}"
+        yield f"    {asked.text}; {count} invariant{'s' * (count != 1)}, over {scans}"
+    yield f"  latency     {judgement.beside.latency}"
+    for text in judgement.beside.assumed.words():
+        yield f"  assumed     {text}"
 
 
 def _equality(folder: Path) -> Rechecked:

@@ -25,6 +25,9 @@ from modeproof.output.outcome import (
 )
 from modeproof.output.rules import rules_of
 from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
+from programs.commands.following import Followed
+from programs.demands.verdicts import Found as FoundDemand
+from programs.demands.watched import Broken
 from programs.equality.binding import Binding
 from programs.equality.comparison import about
 from programs.equality.replay import Difference
@@ -75,8 +78,8 @@ def spots(
 # ---------------------------------------------------------------- equality
 
 
-def demand_of_equality(found: Verdict) -> Demand:
-    """Equality with the target, and what speaks against it."""
+def demand_of_equality(found: Verdict, required: bool) -> Demand:
+    """Equality with the target, and what speaks against it. required: it was asked for."""
     binding = found.product.binding
     target = binding.reference.device.name
     sentence = f"{binding.unit.name} has the outputs of {target} in every scan from power-up."
@@ -88,7 +91,14 @@ def demand_of_equality(found: Verdict) -> Demand:
         problems.append(Problem(rule=rule, message=found.missing, spot=spot_of(binding.unit.place)))
     strength = "induction over pairs of states: every input, parameter and time, for ever"
     how = {"PROVED": strength, "REFUTED": "scans, replayed on both", "UNKNOWN": "no proof and no difference"}
-    return Demand(id=target, word=found.word, sentence=sentence, strength=how[found.word], problems=problems)
+    return Demand(
+        id=target,
+        word=found.word,
+        sentence=sentence,
+        strength=how[found.word],
+        problems=problems,
+        required=required,
+    )
 
 
 def _paper(binding: Binding) -> str:
@@ -231,23 +241,110 @@ def _names(node: Any) -> Iterator[str]:
 # ---------------------------------------------------------------- the whole
 
 
-def outcome_of_equality(
-    args: argparse.Namespace, found: Verdict, record: Mapping[str, Any], text: str, clock: Clock
+def outcome_of_target(
+    args: argparse.Namespace,
+    followed: Followed,
+    same: Verdict | None,
+    record: Mapping[str, Any],
+    text: str,
+    clock: Clock,
 ) -> Outcome:
     """A run with --target. record: the same as the command writes it as JSON; text: what it printed."""
-    binding = found.product.binding
-    lines = dict(about(found.product))
+    product = followed.product
+    binding = product.binding
+    demands = [demand_of_page(followed, one) for one in followed.found]
+    for row in followed.judgement.beside.unjudged:
+        rule = _rule_of_page(followed, row.id, row.says)
+        problem = Problem(rule=rule, message="an output that it needs is left out")
+        demands.append(Demand(id=row.id, word="UNJUDGED", sentence=row.says, problems=[problem]))
+    if same is not None:
+        demands.append(demand_of_equality(same, args.same))
+    lines = dict(about(product))
     bounds = [f"{label}: {lines[label]}" for label in ("compared", "parameters", "inputs", "numbers")]
+    beside = followed.judgement.beside
+    common = _common(args, record, text, clock)
+    if args.same and same is not None and followed.word != "BREAKS":
+        common["sentence"] = f"{record['verdict']}: {followed.sentence}; same as the reference: {same.word}"
+    else:
+        common["sentence"] = followed.sentence
     return Outcome(
         target=binding.reference.device.name,
         document=binding.reference.document,
-        word=found.word,
-        strength=f"from power-up, for ever; {'; '.join(bounds)}",
-        demands=[demand_of_equality(found)],
-        profile=profile_of(binding),
-        assumptions=list(assumed(binding.source, binding.unit, binding.steady)),
-        reason=found.missing,
-        **_common(args, record, text, clock),
+        word=record["verdict"],
+        strength=f"from power-up, for ever; latency: {beside.latency}; {'; '.join(bounds)}",
+        demands=demands,
+        profile=profile_of(binding) if args.same else "",
+        assumptions=[*beside.assumed.words(), *assumed(binding.source, binding.unit, binding.steady)],
+        reason=_open(followed, same) if record["status"] == 2 else "",
+        **common,
+    )
+
+
+def _open(followed: Followed, same: Verdict | None) -> str:
+    """What is missing, where there is no verdict."""
+    parts = [f"{one.asked.id}: {one.how}" for one in followed.found if one.word == "UNKNOWN"]
+    parts += [f"{row.id}: an output that it needs is left out" for row in followed.judgement.beside.unjudged]
+    return "; ".join(parts) or (same.missing if same is not None else "")
+
+
+def demand_of_page(followed: Followed, found: FoundDemand) -> Demand:
+    """A demand of the page, and what speaks against it."""
+    asked, problems = found.asked, []
+    rule = _rule_of_page(followed, asked.id, asked.says)
+    if found.broken is not None:
+        problems.append(_breaking(followed, found, found.broken, rule))
+    elif found.word != "PROVED":
+        place = spot_of(followed.product.binding.unit.place)
+        problems.append(Problem(rule=rule, message=found.how, spot=place))
+    words = {"PROVED": "PROVED", "BROKEN": "BREAKS", "UNKNOWN": "UNKNOWN"}
+    return Demand(
+        id=asked.id,
+        word=words[found.word],
+        sentence=asked.says,
+        text=asked.text,
+        strength=found.how,
+        problems=problems,
+    )
+
+
+def _rule_of_page(followed: Followed, id: str, says: str) -> Rule:
+    document = followed.reference.document
+    return Rule(id=id, kind="demand", sentence=says, source=f"spec/{document}/demands.toml")
+
+
+def _breaking(followed: Followed, found: FoundDemand, broken: Broken, rule: Rule) -> Problem:
+    """The scans, the line that set an output last, and the clauses of the demand."""
+    product, binding, reference = followed.product, followed.product.binding, followed.reference
+    named = next((row.outputs for row in followed.judgement.beside.rows if row.id == rule.id), frozenset())
+    wrong = [name for name in binding.compared if name in named] or list(binding.compared)
+    run = broken.run
+    plain = [(dt_ms, binding.plain_inputs(inputs, run.parameters, dt_ms)) for dt_ms, inputs in run.scans]
+    variables = [binding.variable_of(name) for name in wrong]
+    where = list(spots(binding.source, binding.unit, product.wrap, run.retained, plain, variables))
+    scans = [
+        Scan(
+            dt_ms=step.dt_ms,
+            inputs=dict(step.inputs),
+            given=dict(step.outputs),
+            spot=where[at] if at < len(where) else None,
+        )
+        for at, step in enumerate(broken.steps)
+    ]
+    after = f"in scan {len(scans)} from power-up"
+    what = f"the program stops {after}: {broken.stopped}" if broken.stopped else f"broken {after}"
+    return Problem(
+        rule=rule,
+        others=rules_of(found.asked.clauses, reference.document),
+        message=f"{what}: {found.asked.says}",
+        spot=scans[-1].spot or spot_of(binding.unit.place),
+        counterexample=Counterexample(
+            scans=scans,
+            parameters=reference.to_wire("parameters", run.parameters),
+            retained=dict(run.retained),
+            wrong=[] if broken.stopped else [name for name in wrong if name in broken.steps[-1].outputs],
+            stopped=broken.stopped,
+            found_by=broken.found_by,
+        ),
     )
 
 

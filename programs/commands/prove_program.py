@@ -19,17 +19,24 @@ from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates import certificate_folder as folder
+from programs.certificates import demand_certificate
 from programs.certificates import equality_certificate as certificate
-from programs.certificates.recheck import recheck
-from programs.commands.outcomes import outcome_of_equality
+from programs.certificates.demand_certificate import judgement_of
+from programs.certificates.recheck import FOLLOWS, recheck
+from programs.commands import following
+from programs.commands.following import Followed
+from programs.commands.outcomes import outcome_of_target
 from programs.commands.results import vector_of, write_record
-from programs.equality.binding import read_binding
+from programs.demands.observer import LATENCY
+from programs.equality.binding import read_assumed, read_binding
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
-from programs.equality.replay import Difference, Run
+from programs.equality.replay import Difference, Run, published
 from programs.equality.verdict import Verdict, judge
 from programs.language.tool_differences import assumed
 
+SAME_S = 60.0
+"""CPU seconds for the second answer, if it was not asked for."""
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
 TRUSTED = (*certificate.TRUSTED, "z3")
 
@@ -37,46 +44,107 @@ TRUSTED = (*certificate.TRUSTED, "z3")
 def run_recheck(args: argparse.Namespace) -> int:
     """Check a certificate; the exit status is that of the check."""
     started = time.process_time()
-    found = recheck(args.recheck)
-    print("\n".join(found.lines(time.process_time() - started)))
-    return found.status
+    folders = [args.recheck, *(one for one in [args.recheck / FOLLOWS] if one.is_dir())]
+    statuses = []
+    for one in folders:
+        found = recheck(one)
+        statuses.append(found.status)
+        print("\n".join(found.lines(time.process_time() - started)))
+    return 1 if 1 in statuses else max(statuses)
 
 
 def judge_program(args: argparse.Namespace) -> Outcome:
-    """Judge the program, print the verdict, and return what was found. Raises Unjudged."""
+    """Judge the program, print the verdicts, and return what was found. Raises Unjudged.
+
+    Whether it follows the page comes first, then whether it is the same as the reference.
+    """
     started, clock = time.process_time(), Clock()
-    given = {} if args.binding is None else read_binding(args.binding)
-    product = make(args.files, args.target, args.unit, given, args.wrap)
+    given, assumed = (
+        ({}, {}) if args.binding is None else (read_binding(args.binding), read_assumed(args.binding))
+    )
+    product = make(args.files, args.target, args.unit, given, args.wrap, codes=args.codes)
+    vectors = root() / "vectors" / args.target
 
     def tell(text: str) -> None:
         if sys.stderr.isatty():
             print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
 
-    found = judge(product, root() / "vectors" / args.target, args.seconds, tell)
-    lines = []
-    ways = {} if found.replayed is None else found.replayed.ways(found.product)
-    if args.certificate is not None and found.word == "PROVED":
+    latency = LATENCY if args.latency is None else args.latency
+    judgement = judgement_of(product, assumed, latency, vectors, args.seconds, tell)
+    judgement.at_once = lambda broken, asked: print(
+        following.at_once(broken, asked.id, asked.clauses), flush=True
+    )
+    followed = Followed(product, judgement, judgement.all())
+    tell("")
+    lines = list(following.text_of(followed, time.process_time() - started))
+    print("\n".join(lines), flush=True)
+    same, more, ways = _same(args, followed, vectors, tell)
+    if args.certificate is not None and followed.word == "FOLLOWS":
+        tell("writing the certificate")
+        place = args.certificate / FOLLOWS if more else args.certificate
+        demand_certificate.write(judgement, product, followed.found, place, args.binding)
+        more.append(f"  certificate {place}, of the demands; check it with --recheck {args.certificate}")
+    tell("")
+    seconds = time.process_time() - started
+    last = list(_lines_of_same(args, followed, same, seconds, more))
+    print("\n".join(last))
+    lines += last
+    record = record_of_all(args, followed, same, seconds, ways)
+    if args.binding is not None:
+        record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
+    write_record(root(), record, args.json)
+    text = "\n".join(lines)
+    if args.junit is not None:
+        said = {
+            "compared": ", ".join(product.binding.compared),
+            "left out": ", ".join(product.binding.left_out),
+        }
+        case = Case(record["unit"], record["verdict"], text, said | record["sources"])
+        write_text(args.junit, junit_of(record["target"], [case], record["cpu_seconds"]))
+    return outcome_of_target(args, followed, same, record, text, clock)
+
+
+def _same(
+    args: argparse.Namespace, followed: Followed, vectors: Path, tell: Any
+) -> tuple[Verdict | None, list[str], Mapping[Pair, Run]]:
+    """Whether it is the same as the reference, lines on what was kept of it, and the scans to each pair.
+
+    If that is not asked for, a program that breaks the page is compared by the published vectors alone.
+    """
+    product = followed.product
+    if args.same or followed.word != "BREAKS":
+        seconds = args.seconds if args.same else min(args.seconds, SAME_S)
+        found = judge(product, vectors, seconds, tell, fewest=args.same)
+    else:
+        first = published(product.binding, product.wrap, vectors)
+        if not isinstance(first, Difference):
+            return None, [], {}
+        found = Verdict("REFUTED", product, difference=first)
+    lines: list[str] = []
+    ways: Mapping[Pair, Run] = {} if found.replayed is None else found.replayed.ways(found.product)
+    if args.same and args.certificate is not None and found.word == "PROVED":
         assert found.replayed is not None
         tell("writing the certificate")
         ways = certificate.write(found.product, found.replayed, args.certificate, args.binding)
         unreached = len(found.product.nodes) - len(ways)
         way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
         lines.append(f"  certificate {args.certificate}{way}; check it with --recheck {args.certificate}")
-    if found.difference is not None:
-        lines.append(f"  vector      {_keep(found, args.vector)}")
-    tell("")
-    seconds = time.process_time() - started
-    text = "\n".join([*text_of(found, seconds), *lines])
-    print(text)
-    record = record_of(found, seconds, ways)
-    if args.binding is not None:
-        record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
-    write_record(root(), record, args.json)
-    if args.junit is not None:
-        said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
-        case = Case(record["unit"], found.word, "\n".join(text_of(found, seconds)), said | record["sources"])
-        write_text(args.junit, junit_of(record["target"], [case], record["cpu_seconds"]))
-    return outcome_of_equality(args, found, record, text, clock)
+    return found, lines, ways
+
+
+def _lines_of_same(
+    args: argparse.Namespace, followed: Followed, found: Verdict | None, seconds: float, more: list[str]
+) -> Iterator[str]:
+    """The second answer in lines; in full if it was asked for."""
+    if found is None:
+        yield "Not the same as the reference: that keeps all demands of the page"
+    elif args.same:
+        yield from text_of(found, seconds)
+    else:
+        yield from brief_of(found)
+    yield from more
+    if found is not None and found.difference is not None:
+        yield f"  vector      {_keep(found, args.vector)}"
 
 
 def _keep(found: Verdict, path: Path | None) -> str:
@@ -130,6 +198,34 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
     yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
 
 
+def brief_of(found: Verdict) -> Iterator[str]:
+    """The second answer in few lines."""
+    binding = found.product.binding
+    lines = dict(about(found.product))
+    chosen = f" ({lines['profile']})" if "profile" in lines else ""
+    match found.word:
+        case "PROVED":
+            yield f"SAME AS the reference{chosen}: equal outputs in every scan from power-up, for ever"
+        case "REFUTED":
+            assert found.difference is not None
+            scans = len(found.difference.scans)
+            where = f"in scan {scans} of the {found.difference.found_by}"
+            yield f"Not the same as the reference{chosen}: it differs {where}: {_last(found.difference)}"
+        case "UNKNOWN":
+            yield f"Not known to be the same as the reference{chosen}: {found.missing}"
+    yield f"  compared    {', '.join(binding.compared)}; --same asks for this too"
+
+
+def _last(found: Difference) -> str:
+    """What differs in the last scan."""
+    if found.stopped:
+        return f"the program stops: {found.stopped}"
+    own, expected = found.given[-1], found.expected[-1]
+    return "; ".join(
+        f"{name} is {_shown(own[name])}, and {_shown(expected[name])} there" for name in found.differing
+    )
+
+
 def _difference(found: Difference) -> Iterator[str]:
     yield f"  found by    {found.found_by}; replayed on the reference and on the program's interpreter"
     yield "  set         " + (_row(found.parameters) or "no parameters")
@@ -166,19 +262,30 @@ def _shown(value: Any) -> str:
     return f"{value} ({value:04X}H)" if isinstance(value, int) and value > 9 else str(value)
 
 
-def not_shown(found: Verdict) -> Iterator[str]:
-    """What the verdict says nothing about, in words."""
-    binding = found.product.binding
-    if found.missing:
+def not_shown(followed: Followed, found: Verdict | None) -> Iterator[str]:
+    """What the verdicts say nothing about, in words."""
+    for one in followed.found:
+        if one.word == "UNKNOWN":
+            yield f"{one.asked.id}: {one.how}"
+    for row in followed.judgement.beside.unjudged:
+        yield f"{row.id}: an output that it needs is left out"
+    if found is not None and found.missing:
         yield found.missing
+    yield from (f"runs in which this is not so: {text}" for text in followed.judgement.beside.assumed.words())
+    yield from limits(followed.product)
+
+
+def limits(product: Product) -> Iterator[str]:
+    """Of which outputs, parameters, times and tools a verdict says nothing, in words."""
+    binding = product.binding
     yield from (f"output {name}: it is not compared" for name in binding.left_out)
     yield from (f"output {name} of the program: the target has none such" for name in binding.unasked)
     yield from (f"{name} other than {value}" for name, value in binding.values.items())
     yield from (f"parameters outside {text}" for text in binding.narrowed())
     if binding.longest_scan is not None:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
-    if found.product.wrap:
-        yield "whether numbers stay within their types: they wrap"
+    if product.wrap:
+        yield "that numbers stay within their types: they wrap"
     choices = assumed(binding.source, binding.unit, binding.steady)
     yield from (f"a tool for which this is not so: {text}" for text in choices)
     yield "what the compiler and the PLC make of the source"
@@ -197,21 +304,46 @@ def states(product: Product, ways: Mapping[Pair, Run]) -> list[dict[str, Any]]:
     ]
 
 
-def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[str, Any]:
-    """The verdict as JSON. ways: the scans known to lead to each pair."""
-    binding = found.product.binding
-    record: dict[str, Any] = {
+def record_of_all(
+    args: argparse.Namespace,
+    followed: Followed,
+    same: Verdict | None,
+    seconds: float,
+    ways: Mapping[Pair, Run],
+) -> dict[str, Any]:
+    """Both answers as JSON. The status is that of the first; with --same also that of the second."""
+    binding = followed.product.binding
+    word: str = followed.word
+    status: int = following.EXIT[followed.word]
+    if args.same and same is not None and word != "BREAKS":
+        word, status = same.word, EXIT[same.word]
+    return {
         "command": "prove-program",
-        "verdict": found.word,
-        "status": EXIT[found.word],
+        "verdict": word,
+        "status": status,
         "unit": binding.unit.name,
         "sources": dict(binding.source.files),
         "target": binding.reference.device.name,
-        "reference": folder.reference_files(binding.reference.document),
+        "reference": {
+            **folder.reference_files(binding.reference.document),
+            **demand_certificate.register_files(binding.reference.document),
+        },
         "tools": folder.tools(),
-        "trusted": list(TRUSTED),
-        "not_shown": list(not_shown(found)),
-        "states": states(found.product, ways),
+        "trusted": list(dict.fromkeys([*demand_certificate.TRUSTED, *TRUSTED])),
+        "not_shown": list(not_shown(followed, same)),
+        "states": [] if same is None else states(same.product, ways),
+        "follows": following.record_of(followed),
+        "same_asked": args.same,
+        "same": None if same is None else record_of(same),
+        "cpu_seconds": round(seconds, 1),
+    }
+
+
+def record_of(found: Verdict) -> dict[str, Any]:
+    """The second answer as JSON."""
+    binding = found.product.binding
+    record: dict[str, Any] = {
+        "verdict": found.word,
         "compared": list(binding.compared),
         "left_out": list(binding.left_out),
         "free_parameters": list(binding.free_parameters),
@@ -220,7 +352,6 @@ def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[
         "wrap": found.product.wrap,
         "pairs": len(found.product.nodes),
         "queries": found.product.queries,
-        "cpu_seconds": round(seconds, 1),
         "missing": found.missing,
     }
     if found.difference is not None:

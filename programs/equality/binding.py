@@ -381,15 +381,24 @@ def _plain_name(name: str, loose: bool) -> str:
     return name.upper().replace("_", "") if loose else name.upper()
 
 
-def read_binding(path: Path) -> dict[str, Any]:
-    """The arguments of a Binding that a TOML file gives. Raises Unjudged."""
+def read_assumed(path: Path) -> dict[str, Any]:
+    """The table [assume] of the file of a binding; see `programs.demands.assumptions`. Raises Unjudged."""
+    return dict(_table(path).get("assume", {}))
+
+
+def _table(path: Path) -> dict[str, Any]:
     try:
-        table = tomllib.loads(path.read_text("utf-8"))
+        return tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: no TOML: {error}") from None
-    keys = {"names": dict, "parameters": dict, "left_out": list, "profile": str}
+
+
+def read_binding(path: Path) -> dict[str, Any]:
+    """The arguments of a Binding that a TOML file gives. Raises Unjudged."""
+    table = _table(path)
+    keys = {"names": dict, "parameters": dict, "left_out": list, "profile": str, "assume": dict}
     words: dict[type, str] = {dict: "table", list: "list of names", str: "text"}
     for key, value in table.items():
         if key not in keys:

@@ -22,9 +22,19 @@ def make(
     binding: Mapping[str, Any] | None = None,
     wrap: bool = False,
     split: tuple[str, ...] = (),
+    codes: bool = True,
 ) -> Product:
-    """The program beside the target; binding: see `read_binding`. Raises Unjudged with file, line, cause."""
+    """The program beside the target; binding: see `read_binding`. Raises Unjudged with file, line, cause.
+
+    codes: compare also outputs that the document does not print, such as a code or a state of ours.
+    """
     of = reference(target)
+    if not codes:
+        ours = tuple(name for name, signal in of.signals("outputs").items() if signal.project)
+        given = dict(binding or {})
+        left = (*given.get("left_out", ()), *ours)
+        names = {name: own for name, own in given.get("names", {}).items() if name not in ours}
+        binding = given | {"left_out": tuple(dict.fromkeys(left)), "names": names}
     source = read_sources(files)
     chosen = source.chosen(unit)
     check(source, chosen)
@@ -56,9 +66,19 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
         given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
         same = [profile for profile, values in known.items() if given.items() <= values.items()]
         yield "profile", " and ".join(same) or NEITHER
-    longest = binding.longest_scan
-    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
-    yield "inputs", f"every value, {most} of whole milliseconds"
-    yield "numbers", "wrap" if product.wrap else "stay within their types"
+    yield "inputs", f"every value, {times_of(product)}"
+    yield "numbers", numbers_of(product)
     if choices := list(assumed(binding.source, binding.unit, binding.steady)):
         yield "assumed", "; ".join(choices)
+
+
+def times_of(product: Product) -> str:
+    """The times between scans that a verdict is about."""
+    longest = product.binding.longest_scan
+    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
+    return f"{most} of whole milliseconds"
+
+
+def numbers_of(product: Product) -> str:
+    """What integers may do."""
+    return "wrap" if product.wrap else "stay within their types"

@@ -131,7 +131,7 @@ def wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_every_form_is_written_in_one_run(wrong: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    words = ["prove-program", "edm.st", "--target", "sf_edm", "--sarif", "-", "--markdown", "a.md"]
+    words = ["prove-program", "edm.st", "--target", "sf_edm", "--codes", "--sarif", "-", "--markdown", "a.md"]
     (wrong / "pictures").mkdir()
     (wrong / "pictures/prove-program-edm.st-sf-edm-9.svg").write_text("old", "utf-8")
     assert main([*words, "--diagram", "pictures", "--junit", "a.xml", "--json", "a.json"]) == 1

@@ -27,7 +27,9 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Outcome]:
     (place / "plc/edm.st").write_text(EDM.read_text("utf-8").replace("16#8810", "16#8811"), "utf-8")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place / "plc")
-        found = outcome_of(["prove-program", "edm.st", "--target", "sf_edm", "--record", "../edm.json"])
+        found = outcome_of(
+            ["prove-program", "edm.st", "--target", "sf_edm", "--codes", "--record", "../edm.json"]
+        )
     return place, found
 
 

@@ -248,7 +248,7 @@ def test_a_full_disk_is_one_line_and_nothing_is_kept(
 def test_a_program_is_judged_by_its_own_command(place: Path, judge: Judge) -> None:
     write(place, plc__contactors_st=WRONG)
     status, out, err = judge("--quiet")
-    assert (status, err) == (1, "") and "REFUTED" in out
+    assert (status, err) == (1, "") and "BREAKS" in out
     record = json.loads((place / ".modeproof/records/contactors.json").read_text("utf-8"))
     assert record["command"] == "prove-program" and record["files"][0]["path"] == "plc/contactors.st"
     said = (

@@ -98,7 +98,7 @@ suite = ["tour"]
     assert wrong(tmp_path, text) == [
         "modeproof.toml:2: program.edm: `files` is missing",
         "modeproof.toml:3: program.edm.file: unknown key; did you mean 'files'? allowed: files, target, "
-        "property, unit, binding, profile, wrap, seconds",
+        "property, unit, binding, profile, same, codes, latency, wrap, seconds",
         "modeproof.toml:4: program.edm.target: must be a text in quotes, not 3",
         "modeproof.toml:5: log.edm: [program.edm] in line 2 has this name too; give one of them another",
         "modeproof.toml:5: log.edm: `target` is missing",

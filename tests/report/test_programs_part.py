@@ -14,12 +14,7 @@ from modeproof.report.sources import DIFFERS, NOTE, gather
 from tests.report.paper import make_whole
 
 PROVED: dict[str, Any] = {
-    "command": "prove-program",
     "verdict": "PROVED",
-    "status": 0,
-    "unit": "Box",
-    "sources": {},
-    "target": "box",
     "compared": ["open"],
     "left_out": [],
     "pairs": 3,
@@ -29,7 +24,6 @@ PROVED: dict[str, Any] = {
 REFUTED: dict[str, Any] = {
     **PROVED,
     "verdict": "REFUTED",
-    "status": 1,
     "difference": {
         "scans": [{"dt_ms": 0, "in": {}}],
         "reference": [{"open": True}],
@@ -38,6 +32,26 @@ REFUTED: dict[str, Any] = {
         "stopped": "",
     },
 }
+
+
+SHUT: dict[str, Any] = {
+    "id": "Shut",
+    "says": "It shuts.",
+    "clauses": ["BOX-1"],
+    "verdict": "PROVED",
+    "how": "",
+}
+FOLLOWS: dict[str, Any] = {"verdict": "FOLLOWS", "latency": 1, "demands": [SHUT], "unjudged": []}
+BROKEN: dict[str, Any] = {**SHUT, "verdict": "BROKEN", "broken": {"scans": [{}]}}
+
+
+def target(same: Any, **changes: Any) -> dict[str, Any]:
+    """The record of a program beside a target, of which equality was asked too."""
+    status = {"PROVED": 0, "REFUTED": 1}.get(same["verdict"], 2) if same else 0
+    word = same["verdict"] if same else "FOLLOWS"
+    rest = {"verdict": word, "status": status, "follows": FOLLOWS, "same": same, "same_asked": bool(same)}
+    head = {"command": "prove-program", "unit": "Box", "sources": {}, "target": "box"}
+    return {**head, **rest, **changes}
 
 
 PROPERTIES: dict[str, Any] = {
@@ -75,12 +89,18 @@ def root(tmp_path: Path) -> Path:
     return make_whole(tmp_path)
 
 
-@pytest.mark.parametrize("record", [PROVED, REFUTED], ids=["proved", "refuted"])
-def test_a_verdict_on_a_program_is_a_row(record: dict[str, Any], root: Path) -> None:
-    found = kept(root, record)
+@pytest.mark.parametrize("same", [PROVED, REFUTED], ids=["proved", "refuted"])
+def test_a_verdict_on_a_program_is_two_rows(same: dict[str, Any], root: Path) -> None:
+    found = kept(root, target(same))
     assert found.troubles == ()
-    assert [(row["unit"], row["verdict"]) for row in found.data["rows"]] == [("Box", record["verdict"])]
+    assert [row["verdict"] for row in found.data["rows"]] == ["FOLLOWS", same["verdict"]]
     assert "Programs of users" in make(root).html
+
+
+def test_a_broken_demand_is_named(root: Path) -> None:
+    follows = {**FOLLOWS, "verdict": "BREAKS", "demands": [BROKEN]}
+    found = kept(root, target(None, verdict="BREAKS", status=1, follows=follows))
+    assert found.troubles == () and [row["how"] for row in found.data["rows"]] == ["breaks Shut"]
 
 
 def test_a_tree_without_programs_has_an_empty_part(root: Path) -> None:
@@ -91,14 +111,24 @@ def test_a_tree_without_programs_has_an_empty_part(root: Path) -> None:
 @pytest.mark.parametrize(
     ("record", "said"),
     [
-        ({**PROVED, "status": 1}, "PROVED with status 1"),
-        ({**PROVED, "pairs": 0}, "0 pairs"),
-        ({**PROVED, "missing": "a pair"}, "its figures say: a pair"),
-        ({**PROVED, "compared": []}, "no output was compared"),
-        ({**REFUTED, "verdict": "PROVED", "status": 0}, "holds a difference"),
-        ({**PROVED, "verdict": "REFUTED", "status": 1}, "REFUTED without scans"),
-        ({**PROVED, "verdict": "UNKNOWN", "status": 2}, "nothing is missing"),
-        ({**REFUTED, "difference": {**REFUTED["difference"], "program": [{"open": True}]}}, "differ: none"),
+        (target(PROVED, status=1), "PROVED with status 1"),
+        (target({**PROVED, "pairs": 0}), "0 pairs"),
+        (target({**PROVED, "missing": "a pair"}), "its figures say: a pair"),
+        (target({**PROVED, "compared": []}), "no output was compared"),
+        (target({**REFUTED, "verdict": "PROVED"}), "holds a difference"),
+        (target({**PROVED, "verdict": "REFUTED"}), "REFUTED without scans"),
+        (target({**PROVED, "verdict": "UNKNOWN"}), "nothing is missing"),
+        (
+            target({**REFUTED, "difference": {**REFUTED["difference"], "program": [{"open": True}]}}),
+            "differ: none",
+        ),
+        (target(None, follows={**FOLLOWS, "demands": []}), "no verdicts on demands: none"),
+        (target(None, follows={**FOLLOWS, "unjudged": ["Opens"]}), "FOLLOWS, and its demands say UNKNOWN"),
+        (target(None, follows={**FOLLOWS, "demands": [BROKEN]}), "FOLLOWS, and its demands say BREAKS"),
+        (
+            target(None, follows={**FOLLOWS, "verdict": "BREAKS", "demands": [{**BROKEN, "broken": {}}]}),
+            "BROKEN without scans",
+        ),
         ({"verdict": "PROVED"}, "cannot be judged"),
     ],
 )
@@ -108,14 +138,14 @@ def test_a_record_that_contradicts_itself_is_told(record: dict[str, Any], said: 
 
 
 def test_a_program_that_changed_since_is_noted(root: Path) -> None:
-    troubles = kept(root, {**PROVED, "sources": {"box.st": "0" * 64}}).troubles
+    troubles = kept(root, target(PROVED, sources={"box.st": "0" * 64})).troubles
     assert [(trouble.status, trouble.items) for trouble in troubles] == [(NOTE, ("box.st",))]
 
 
 def test_a_binding_that_changed_since_is_noted(root: Path) -> None:
-    found = kept(root, {**PROVED, "binding_file": {"box.toml": "0" * 64}})
+    found = kept(root, target(PROVED, binding_file={"box.toml": "0" * 64}))
     assert [trouble.items for trouble in found.troubles] == [("box.toml",)]
-    assert found.data["rows"][0]["how"] == "3 pairs; of files that have changed since"
+    assert found.data["rows"][1]["how"] == "3 pairs; of files that have changed since"
 
 
 def test_each_property_is_a_row_with_what_is_not_shown(root: Path) -> None:
@@ -134,7 +164,7 @@ def test_pairs_show_the_scans_that_lead_to_them(root: Path) -> None:
         {"pair": "Off / 1", "relations": 2, "reached_after": 3},
         {"pair": "On / 2", "relations": 1, "reached_after": None},
     ]
-    kept(root, {**PROVED, "states": states})
+    kept(root, target(PROVED, states=states))
     html = make(root).html
     assert "2 pairs of states of reference and program; scans are known to 1 of them" in html
     assert "none known; a certificate looks for them" in html

@@ -43,11 +43,34 @@ def part(sources: Sources) -> Part:
 
 def contradiction(record: Mapping[str, Any]) -> str:
     """What a record says otherwise than its own figures do; empty: nothing."""
-    if "verdicts" in record:
-        return _of_properties(record)
+    return _of_properties(record) if "verdicts" in record else _of_target(record)
+
+
+def _of_target(record: Mapping[str, Any]) -> str:
+    follows, same, asked = record["follows"], record["same"], record["same_asked"]
+    words = [row["verdict"] for row in follows["demands"]]
+    if not set(words) <= {"PROVED", "BROKEN", "UNKNOWN"} or not any(
+        row["clauses"] for row in follows["demands"]
+    ):
+        return f"no verdicts on demands: {', '.join(map(str, words)) or 'none'}"
+    whole = set(words) == {"PROVED"} and not follows["unjudged"]
+    word = "BREAKS" if "BROKEN" in words else "FOLLOWS" if whole else "UNKNOWN"
+    if follows["verdict"] != word:
+        return f"{follows['verdict']}, and its demands say {word}"
+    for row in follows["demands"]:
+        if row["verdict"] == "BROKEN" and not row.get("broken", {}).get("scans"):
+            return f"{row['id']}: BROKEN without scans"
+    word = same["verdict"] if asked and same is not None and word != "BREAKS" else word
+    statuses = {"FOLLOWS": 0, "BREAKS": 1, "PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
+    if (record["verdict"], record["status"]) != (word, statuses[word]):
+        return f"{record['verdict']} with status {record['status']}, and its figures say {word}"
+    return "" if same is None else _of_equality(same)
+
+
+def _of_equality(record: Mapping[str, Any]) -> str:
     word, difference = record["verdict"], record.get("difference")
-    if record["status"] != {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}[word]:
-        return f"{word} with status {record['status']}"
+    if word not in ("PROVED", "REFUTED", "UNKNOWN"):
+        return f"no verdict on equality: {word}"
     if not record["compared"]:
         return f"{word}, and no output was compared"
     if word == "REFUTED":
@@ -116,11 +139,24 @@ def _rows(record: Mapping[str, Any], key: str, doubt: str) -> Iterator[dict[str,
                 "how": f"false after {scans} scans" if scans else row["how"],
             }
         return
-    scans = len(record["difference"]["scans"]) if record["verdict"] == "REFUTED" and not doubt else 0
-    shown = f"{record['pairs']} pairs" if record["verdict"] == "PROVED" else record["missing"]
+    follows = record["follows"]
+    rows = [row for row in follows["demands"] if row["clauses"]]
+    broken = [row["id"] for row in follows["demands"] if row["verdict"] == "BROKEN"]
+    proved = sum(row["verdict"] == "PROVED" for row in rows)
     yield common | {
-        "about": f"equal to {record['target']}: {', '.join(record['compared'])}",
-        "verdict": "UNJUDGED" if doubt else record["verdict"],
+        "about": f"follows the page of {record['target']}",
+        "verdict": "UNJUDGED" if doubt else follows["verdict"],
+        "how": f"breaks {', '.join(broken)}"
+        if broken
+        else f"{proved} of {len(rows) + len(follows['unjudged'])} demands, latency {follows['latency']}",
+    }
+    if (same := record["same"]) is None:
+        return
+    scans = len(same["difference"]["scans"]) if same["verdict"] == "REFUTED" and not doubt else 0
+    shown = f"{same['pairs']} pairs" if same["verdict"] == "PROVED" else same["missing"]
+    yield common | {
+        "about": f"equal to {record['target']}: {', '.join(same['compared'])}",
+        "verdict": "UNJUDGED" if doubt else same["verdict"],
         "how": f"differs after {scans} scans" if scans else shown,
     }
 

@@ -52,11 +52,11 @@ def test_a_block_of_structures_is_proved_with_its_certificate(
 ) -> None:
     given = written(tmp_path)
     kept = tmp_path / "edm.certificate"
-    assert (
-        main(["prove-program", *given, "--json", str(tmp_path / "j.json"), "--certificate", str(kept)]) == 0
-    )
+    given += ["--codes", "--json", str(tmp_path / "j.json"), "--certificate", str(kept)]
+    assert main(["prove-program", *given]) == 0
     assert "PROVED: function block SF_EDM" in capsys.readouterr().out
-    assert json.loads((tmp_path / "j.json").read_text("utf-8"))["compared"] == list(OUTPUTS)
+    record = json.loads((tmp_path / "j.json").read_text("utf-8"))
+    assert record["verdict"] == "PROVED" and record["same"]["compared"] == list(OUTPUTS)
     assert main(["prove-program", "--recheck", str(kept)]) == 0
 
 
@@ -64,7 +64,7 @@ def test_a_fault_in_a_block_of_structures_is_refuted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     given = written(tmp_path, ("IF S_EDM1 AND S_EDM2 THEN", "IF S_EDM1 THEN"))
-    assert main(["prove-program", *given, "--vector", str(tmp_path / "v.jsonl")]) == 1
+    assert main(["prove-program", *given, "--same", "--vector", str(tmp_path / "v.jsonl")]) == 1
     assert "<- differs" in capsys.readouterr().out and (tmp_path / "v.jsonl").is_file()
 
 

@@ -14,7 +14,7 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import open_suite
-from programs.commands.prove_program import record_of, text_of
+from programs.commands.prove_program import limits, record_of, states, text_of
 from programs.equality.binding import read_binding
 from programs.equality.comparison import make
 from programs.equality.fixpoint import Search
@@ -129,20 +129,21 @@ def test_the_command_prints_and_writes_the_difference(
     path, file = changed(tmp_path, *FAULTS["an output that stays on"]), tmp_path / "out.json"
     binding = tmp_path / "binding.toml"
     binding.write_text("left_out = ['DiagCode']\n", "utf-8")
-    given = ["prove-program", str(path), "--target", "sf_edm", "--json", str(file)]
+    given = ["prove-program", str(path), "--target", "sf_edm", "--json", str(file), "--same"]
     assert main([*given, "--binding", str(binding)]) == 1
     assert "S_EDM_Out        reference 0        program 1   <- differs" in capsys.readouterr().out
     record = json.loads(file.read_text("utf-8"))
-    assert record["verdict"] == "REFUTED" and record["difference"]["differing"] == ["S_EDM_Out"]
+    assert record["verdict"] == record["follows"]["verdict"] == "BREAKS"
+    assert record["same"]["verdict"] == "REFUTED"
+    assert record["same"]["difference"]["differing"] == ["S_EDM_Out"]
     assert list(record["binding_file"]) == [str(binding)]
 
 
 def test_a_proof_has_no_difference_in_its_record() -> None:
-    record = record_of(edm(), 1.0, {})
+    record, rows = record_of(edm()), states(edm().product, {})
     assert record["verdict"] == "PROVED" and "difference" not in record and record["pairs"] == 24
-    assert len(record["states"]) == 24 and {row["reached_after"] for row in record["states"]} == {0, None}
-    assert "what the compiler and the PLC make of the source" in record["not_shown"]
-    assert "refimpl/edm/sf_edm.py" in record["reference"] and "z3" in record["trusted"]
+    assert len(rows) == 24 and {row["reached_after"] for row in rows} == {0, None}
+    assert "what the compiler and the PLC make of the source" in limits(edm().product)
 
 
 @pytest.mark.deep
@@ -318,7 +319,7 @@ def test_an_output_of_nobody_is_named(tmp_path: Path) -> None:
     path = changed(tmp_path, "Ready : BOOL;", "Ready : BOOL; Spare : BOOL;")
     found = judged(path, "sf_edm", binding={"left_out": ("DiagCode",)})
     assert "  left out    DiagCode; of the program's own: Spare" in text_of(found, 1)
-    assert "output Spare of the program: the target has none such" in record_of(found, 1, {})["not_shown"]
+    assert "output Spare of the program: the target has none such" in limits(found.product)
 
 
 def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
