@@ -120,7 +120,7 @@ FAULTS: dict[str, list[Edit]] = {
             "Step.END_EXTERNAL_TEST)  # BeginExternalTest",
         )
     ],
-    "ManualTestIsSeen": [
+    "ManualTestShows": [
         (
             "return _to(s, i, Step.END_EXTERNAL_TEST)  # BecomeFree",
             "return _to(s, i, Step.EXTERNAL_FUNCTION_TEST)  # BecomeFree",

@@ -304,7 +304,7 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
     verdict = kit.run(replace(of, header={**of.header, "demands": None}), Program, "monitor")
     assert "nothing is demanded of the outputs" in verdict.reason
     lowered = case([(0, True, True), (0, True, True), (0, False, True)])
-    stuck = {(n, "B"): False for n in range(3, 9)}
+    stuck = {(n, "B"): False for n in range(3, 999)}
     verdict = kit.run(suite([lowered], ["monitor"]), lambda: Spoiled(stuck), "monitor")
     assert verdict.reason.startswith("1 of 3 demands") and verdict.reason.endswith(": BLasts")
     refused = suite([requested(of.given[1], 1), *of.given], ["monitor"])
