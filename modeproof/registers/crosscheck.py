@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from modeproof.ground.errors import suggestion
 from modeproof.registers.citations import Sources
-from modeproof.registers.demands import MODULE
 from modeproof.registers.demands_page import check_demands
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.profiles import check_profiles
@@ -252,7 +251,7 @@ def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(
                 file, run.id, f"module {run.module} does not exist; {suggestion(run.module, sources.modules)}"
             )
-        if run.kind == "NEG" and run.id not in shown and not run.module.endswith(MODULE):
+        if run.kind == "NEG" and run.id not in shown:
             yield Problem(file, run.id, "no finding and no assumption names this negative run")
         for name in (*run.properties, *([run.property] if run.property else [])):
             if name not in known and not TECHNICAL.fullmatch(name):

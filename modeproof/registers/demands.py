@@ -111,7 +111,6 @@ def as_properties(root: Path, name: str, demands: Demands, interface: Interface)
                 clauses=row.clauses,
                 module=module,
                 kind=row.kind,
-                reason="Each verdict of the kit says in how many scans the demand was put to the program.",
                 environments=("arbitrary",),
                 tla=row.id,
             )

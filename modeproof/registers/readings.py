@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.crosscheck import TECHNICAL
-from modeproof.registers.demands import MODULE
 from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, replaced_by, replacements
 from modeproof.registers.profiles import profile_of
 from modeproof.registers.replay import has_replay, load_replay
@@ -58,16 +57,11 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
     """Every reading is tried alone in exactly one run, NEG or MC, and named by a finding.
 
-    The runs that ask what the page demands come besides. A reading that joins others which replace the same
-    operator ends with SUFFIX. A run tries it with others.
+    A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
     named = {name for finding in document.findings for name in finding.tries}
     for name in readings:
-        alone = {
-            run.id: run.kind
-            for run in document.runs
-            if run.readings == (name,) and not run.of and not run.module.endswith(MODULE)
-        }
+        alone = {run.id: run.kind for run in document.runs if run.readings == (name,) and not run.of}
         if name.endswith(SUFFIX):
             if not any(name in run.readings for run in document.runs):
                 yield Problem(document.source("runs"), name, "no run tries this reading")
@@ -100,14 +94,9 @@ def _harmless(document: Document, modules: Mapping[str, Module]) -> Iterator[Pro
     """Of a reading that an MC run calls harmless: the properties that none of its runs asks.
 
     It must be asked each that a run of the decided device asks, in the same module and the same profile,
-    wherever that module can be given the reading. What the page demands is another question.
+    wherever that module can be given the reading.
     """
-    harmless = (
-        run
-        for run in document.runs
-        if run.kind == "MC" and len(run.readings) == 1 and not run.of and not run.module.endswith(MODULE)
-    )
-    for main in harmless:
+    for main in (run for run in document.runs if run.kind == "MC" and len(run.readings) == 1 and not run.of):
         try:
             there = askers(document, modules, main)
         except Unjudged:
@@ -140,7 +129,6 @@ def askers(document: Document, modules: Mapping[str, Module], run: Run) -> list[
         for other in document.runs
         if other.kind in ASKING
         and not other.readings
-        and not other.module.endswith(MODULE)
         and any(needed <= {module.name for module in closure(modules, other.module)} for needed in of)
     ]
 

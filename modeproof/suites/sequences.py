@@ -32,9 +32,10 @@ step of the specification each scan takes. What the outputs must be, it does not
     scans = [{ set = { word = "CODE[other]" }, step = "StayOff" }]
 
 `set` holds what changes (all of it in the first scan of a flow), `dt_ms` is as in the scan before where it
-is left out, `times` repeats a scan, `step` may be a list of steps, one a scan. Clauses and basis may name tables too. A branch has the flow's `for` and
-`when` unless it has its own, and its `graph`, which may be a list of graphs: of each profile, for instance.
-With `basis` a case rests on a finding of ours and not on the document alone, as in `basis = "finding:E-21"`.
+is left out, `times` repeats a scan; a list of steps is one scan for each. Clauses and basis may name tables
+too. A branch has the flow's `for` and `when` unless it has its own, and its `graph`, which may be a list of
+graphs: of each profile, for instance. With `basis` a case rests on a finding of ours and not on the document
+alone, as in `basis = "finding:E-21"`.
 
 A scan that takes another step than it says is refused: then the diagram, as it was read here, is not what the
 specification does.
