@@ -113,4 +113,5 @@ def as_properties(root: Path, name: str, demands: Demands, interface: Interface)
                 kind=row.kind,
                 environments=("arbitrary",),
                 tla=row.id,
+                reason="an edit of the block that breaks it shows that it is asked",
             )

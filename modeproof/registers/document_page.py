@@ -16,6 +16,7 @@ from typing import Any
 
 from modeproof.ground.fitted import fitted
 from modeproof.registers.citations import Sources
+from modeproof.registers.demands import MODULE
 from modeproof.registers.demands_page import demands_name, demands_pages
 from modeproof.registers.files import markdown, read_text, read_toml
 from modeproof.registers.findings_page import (
@@ -202,7 +203,9 @@ def _shown(document: Document, sources: Sources) -> str:
 
 def _harmless(document: str, asking: Sequence[Run]) -> Iterator[list[str]]:
     """The readings that break nothing, and the runs in which they are asked."""
-    alone = [run for run in asking if len(run.readings) == 1 and not run.of]
+    alone = [
+        run for run in asking if len(run.readings) == 1 and not run.of and not run.module.endswith(MODULE)
+    ]
     if alone:
         names = " ".join(run.id for run in alone)
         yield [

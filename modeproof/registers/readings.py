@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.crosscheck import TECHNICAL
+from modeproof.registers.demands import MODULE
 from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, replaced_by, replacements
 from modeproof.registers.profiles import profile_of
 from modeproof.registers.replay import has_replay, load_replay
@@ -55,17 +56,18 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 
 
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """Every reading is tried alone in exactly one run, NEG or MC, and named by a finding.
+    """Every reading is tried alone in one run, NEG or MC, or by the demands, and is named by a finding.
 
     A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
     named = {name for finding in document.findings for name in finding.tries}
     for name in readings:
-        alone = {run.id: run.kind for run in document.runs if run.readings == (name,) and not run.of}
+        tried = [run for run in document.runs if run.readings == (name,) and not run.of]
+        alone = {run.id: run.kind for run in tried if not run.module.endswith(MODULE)}
         if name.endswith(SUFFIX):
             if not any(name in run.readings for run in document.runs):
                 yield Problem(document.source("runs"), name, "no run tries this reading")
-        elif not alone:
+        elif not tried:
             yield Problem(document.source("runs"), name, "no run tries this reading alone")
         if len(alone) > 1:
             text = f"more than one run tries this reading alone: {', '.join(alone)}"
@@ -94,9 +96,12 @@ def _harmless(document: Document, modules: Mapping[str, Module]) -> Iterator[Pro
     """Of a reading that an MC run calls harmless: the properties that none of its runs asks.
 
     It must be asked each that a run of the decided device asks, in the same module and the same profile,
-    wherever that module can be given the reading.
+    wherever that module can be given the reading. A run of the demands says that the page leaves a reading
+    open, not that it is harmless.
     """
     for main in (run for run in document.runs if run.kind == "MC" and len(run.readings) == 1 and not run.of):
+        if main.module.endswith(MODULE):
+            continue
         try:
             there = askers(document, modules, main)
         except Unjudged:
@@ -129,6 +134,7 @@ def askers(document: Document, modules: Mapping[str, Module], run: Run) -> list[
         for other in document.runs
         if other.kind in ASKING
         and not other.readings
+        and not other.module.endswith(MODULE)
         and any(needed <= {module.name for module in closure(modules, other.module)} for needed in of)
     ]
 
@@ -160,7 +166,7 @@ def _idle(document: Document, run: Run, counts: tuple[int | None, int | None]) -
     """
     base = next((candidate for candidate in document.runs if candidate.id == run.base), None)
     others = run.constants or run.specification or run.view is not None
-    if base is None or not run.readings or others or run.module != base.module:
+    if base is None or not run.readings or others or run.module != base.module or run.module.endswith(MODULE):
         return ""
     if counts != (base.distinct, base.generated):
         return ""

@@ -204,10 +204,10 @@ def _with_reason(text: str, data: Any, note: str) -> str:
         return text
     line = f"    {json.dumps(note, ensure_ascii=False)},\n"
     if "moved" in data:
-        start = re.search(r"^moved = \[", text, re.MULTILINE)
-        assert start is not None
-        end = text.index("\n]\n", start.end()) + 1
-        return text[:end] + line + text[end:]
+        whole = re.search(r"^moved = \[(.*?),?\s*\]\n", text, re.MULTILINE | re.DOTALL)
+        assert whole is not None
+        comma = "," if whole[1].strip() else ""
+        return f"{text[: whole.end(1)].rstrip()}{comma}\n{line}]\n{text[whole.end() :]}"
     first = re.search(r"^\[", text, re.MULTILINE)
     at = first.start() if first else 0
     return f"{text[:at]}moved = [\n{line}]\n\n{text[at:]}"

@@ -72,10 +72,16 @@ COURSES: Mapping[str, Mapping[str, list[Wires]]] = {
 }
 
 
-def broken(target: str, program: Program, wires: Iterable[Wires], latency: int = 1) -> str:
-    """The demand that a program breaks first, or nothing."""
+def broken(
+    target: str,
+    program: Program,
+    wires: Iterable[Wires],
+    latency: int = 1,
+    params: Mapping[str, Any] | None = None,
+) -> str:
+    """The demand that a program breaks first, or nothing; of a program with the parameters of the machine."""
     judge = watch(target, latency)
-    judge.reset(getattr(program, "params", {}))
+    judge.reset(getattr(program, "params", {}) if params is None else params)
     program.reset()
     for dt_ms, inputs in wires:
         found = judge.scan(dt_ms, inputs, program.scan(dt_ms, inputs))
@@ -152,6 +158,17 @@ def test_disturbed_wires_blame_no_program_that_follows(
         assert all_broken(target, make, latency) == set()
     for seed, wires in enumerate(COURSES[target].values()):
         assert broken(target, make(), courses.disturbed(seed, wires, 800), latency) == ""
+
+
+@pytest.mark.parametrize(("target", "make", "latency"), [FOLLOW[2], FOLLOW[4], FOLLOW[6], FOLLOW[8]])
+def test_the_published_sequences_blame_no_program_that_follows(
+    target: str, make: Callable[[], Program], latency: int
+) -> None:
+    suite = open_suite(root() / f"vectors/{target}/sequences.jsonl.gz")
+    for case in suite.cases():
+        wires = [(scan.dt_ms, scan.inputs) for scan in case.scans]
+        if not case.params.get("SELECTIONS"):
+            assert broken(target, make(), wires, latency, case.params) == "", case.id
 
 
 def test_a_narrower_permission_meets_the_demands() -> None:
