@@ -262,11 +262,15 @@ def profile_of(args: argparse.Namespace) -> str:
 
 
 def in_profile(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Suite]:
-    """The cases of the suites that speak of the profile. Raises Unjudged where there are none.
+    """The cases of the suites that speak of the profile. Raises Unjudged where there are none, and where one
+    is asked for of a target that has no profiles.
 
     A suite that was not asked for by its name is left out where it has none.
     """
     profile = profile_of(args)
+    if args.profile not in (None, ALL) and not any(suite.header.get("profiles") for suite in suites):
+        target = suites[0].target if suites else args.target
+        raise Unjudged(f"{target} has no profiles, so it has none that is {profile}; leave --profile out")
     found = []
     for suite in suites:
         part = of_profile(suite, profile)

@@ -56,7 +56,7 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 
 
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """Every reading is tried alone in one run, NEG or MC, besides those of the demands; a finding names it.
+    """Every reading is tried alone in one run, NEG or MC, or by the demands, and is named by a finding.
 
     A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
@@ -96,8 +96,8 @@ def _harmless(document: Document, modules: Mapping[str, Module]) -> Iterator[Pro
     """Of a reading that an MC run calls harmless: the properties that none of its runs asks.
 
     It must be asked each that a run of the decided device asks, in the same module and the same profile,
-    wherever that module can be given the reading. A run of the demands calls no reading harmless: it says
-    that the page leaves it open.
+    wherever that module can be given the reading. A run of the demands says that the page leaves a reading
+    open, not that it is harmless.
     """
     for main in (run for run in document.runs if run.kind == "MC" and len(run.readings) == 1 and not run.of):
         if main.module.endswith(MODULE):

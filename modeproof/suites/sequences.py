@@ -32,9 +32,10 @@ step of the specification each scan takes. What the outputs must be, it does not
     scans = [{ set = { word = "CODE[other]" }, step = "StayOff" }]
 
 `set` holds what changes (all of it in the first scan of a flow), `dt_ms` is as in the scan before where it
-is left out, `times` repeats a scan. Clauses and basis may name tables too. A branch has the flow's `for` and
-`when` unless it has its own, and its `graph`, which may be a list of graphs: of each profile, for instance.
-With `basis` a case rests on a finding of ours and not on the document alone, as in `basis = "finding:E-21"`.
+is left out, `times` repeats a scan; a list of steps is one scan for each. Clauses and basis may name tables
+too. A branch has the flow's `for` and `when` unless it has its own, and its `graph`, which may be a list of
+graphs: of each profile, for instance. With `basis` a case rests on a finding of ours and not on the document
+alone, as in `basis = "finding:E-21"`.
 
 A scan that takes another step than it says is refused: then the diagram, as it was read here, is not what the
 specification does.
@@ -167,9 +168,10 @@ class _Cases:
     @staticmethod
     def _scans(row: Mapping[str, Any]) -> list[_Scan]:
         return [
-            _Scan(scan.get("set", {}), scan.get("dt_ms"), scan["step"])
+            _Scan(scan.get("set", {}), scan.get("dt_ms"), step)
             for scan in row["scans"]
             for _ in range(scan.get("times", 1))
+            for step in ([scan["step"]] if isinstance(scan["step"], str) else scan["step"])
         ]
 
     def _each(

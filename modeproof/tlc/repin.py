@@ -206,7 +206,8 @@ def _with_reason(text: str, data: Any, note: str) -> str:
     if "moved" in data:
         whole = re.search(r"^moved = \[(.*?),?\s*\]\n", text, re.MULTILINE | re.DOTALL)
         assert whole is not None
-        return f"{text[: whole.end(1)].rstrip()},\n{line}]\n{text[whole.end() :]}"
+        comma = "," if whole[1].strip() else ""
+        return f"{text[: whole.end(1)].rstrip()}{comma}\n{line}]\n{text[whole.end() :]}"
     first = re.search(r"^\[", text, re.MULTILINE)
     at = first.start() if first else 0
     return f"{text[:at]}moved = [\n{line}]\n\n{text[at:]}"

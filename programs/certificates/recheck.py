@@ -100,7 +100,7 @@ def _demands(folder: Path) -> Rechecked:
     proofs = kept.proofs(judgement)
     owed = demand_certificate.obligations(judgement, proofs)
     kept.compare({part.file: part.text for part in owed})
-    answers = _asked(folder, owed)
+    answers = asked(folder, owed)
     return Rechecked(answers, list(_about_demands(kept.record, judgement, proofs, answers)))
 
 
@@ -141,7 +141,7 @@ def _equality(folder: Path) -> Rechecked:
     unreached = kept.follow(product, ways)
     owed = list(obligations(product))
     kept.compare({part.file: part.text for part in owed})
-    answers = _asked(folder, owed)
+    answers = asked(folder, owed)
     return Rechecked(answers, list(_about_equality(product, answers, unreached)), unreached)
 
 
@@ -167,7 +167,7 @@ def _properties(folder: Path) -> Rechecked:
     proofs = kept.proofs(judgement)
     owed = list(property_certificate.obligations(judgement, proofs))
     kept.compare({part.file: part.text for part in owed})
-    answers = _asked(folder, owed)
+    answers = asked(folder, owed)
     return Rechecked(answers, list(_about_properties(judgement, proofs, answers)))
 
 
@@ -189,7 +189,7 @@ def _about_properties(
     yield f"  not empty   {triggers} triggers; scans from power-up to each were run again"
 
 
-def _asked(folder: Path, owed: Sequence[Obligation]) -> Answers:
+def asked(folder: Path, owed: Sequence[Obligation]) -> Answers:
     """Both solvers on every text."""
     answers: dict[str, dict[str, str]] = {}
     seconds: dict[str, float] = {}

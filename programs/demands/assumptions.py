@@ -70,7 +70,7 @@ class Assumed:
     def by_page(self) -> tuple[str, ...]:
         """The inputs that the page calls constant."""
         signals = self.reference.signals("inputs").items()
-        return tuple(name for name, signal in signals if getattr(signal, "constant", False))
+        return tuple(name for name, signal in signals if signal.constant)
 
     @cached_property
     def constant(self) -> tuple[str, ...]:

@@ -81,7 +81,7 @@ class Hmi:
     def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """One scan: the check of Figure 3 or 9, then the steps."""
         authorization, self.check = int(inputs["ReadAuthorization"], 16), int(inputs["CheckMSO"], 16)
-        self.touch = inputs["touch"]
+        self.touch = inputs["touch"] or ""
         if self.late > 0:
             self.late -= 1
             authorization = authorization or RE[4]

@@ -93,7 +93,7 @@ FAULTS: dict[str, list[Edit]] = {
 @pytest.mark.parametrize("late", [0, 1])
 def test_the_reference_follows_the_page(profile: str, late: int) -> None:
     params: dict[str, Any] = {**TIME, "AFTER_RESET": profile}
-    broken, put = RUNS.broken(RUNS.reference(**params), 200 if late else 800, late=late, **params)
+    broken, put = RUNS.broken(RUNS.reference(**params), 100 if late else 300, late=late, **params)
     assert not broken
     if not late:
         judged_on_the_way = {"LateContactorSwitchesOff", "LateDropOutShowsError", "ResetEndsError"}
@@ -104,14 +104,16 @@ def test_the_reference_follows_the_page(profile: str, late: int) -> None:
 @pytest.mark.parametrize("late", [0, 1])
 def test_a_program_of_another_hand_follows_the_page(choice: dict[str, Any], late: int) -> None:
     late = 0 if choice.get("late_outputs") else late
-    assert not RUNS.broken(lambda: Contactors(**TIME, **choice).scan, 300, late=late, **TIME)[0]
+    assert not RUNS.broken(lambda: Contactors(**TIME, **choice).scan, 150, late=late, **TIME)[0]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("fault", "demand"), OUTRIGHT.items())
 def test_an_outright_fault_breaks_its_demand(fault: str, demand: str) -> None:
     assert RUNS.falls(demand, lambda: Contactors(**TIME, fault=fault).scan, **TIME)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("demand", FAULTS)
 def test_each_demand_falls_to_an_edit(demand: str) -> None:
     assert RUNS.falls(demand, RUNS.reference(*FAULTS[demand], **TIME), **TIME)

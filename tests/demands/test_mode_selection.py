@@ -72,10 +72,16 @@ COURSES: Mapping[str, Mapping[str, list[Wires]]] = {
 }
 
 
-def broken(target: str, program: Program, wires: Iterable[Wires], latency: int = 1) -> str:
-    """The demand that a program breaks first, or nothing."""
+def broken(
+    target: str,
+    program: Program,
+    wires: Iterable[Wires],
+    latency: int = 1,
+    params: Mapping[str, Any] | None = None,
+) -> str:
+    """The demand that a program breaks first, or nothing; of a program with the parameters of the machine."""
     judge = watch(target, latency)
-    judge.reset(getattr(program, "params", {}))
+    judge.reset(getattr(program, "params", {}) if params is None else params)
     program.reset()
     for dt_ms, inputs in wires:
         found = judge.scan(dt_ms, inputs, program.scan(dt_ms, inputs))
@@ -154,6 +160,17 @@ def test_disturbed_wires_blame_no_program_that_follows(
         assert broken(target, make(), courses.disturbed(seed, wires, 800), latency) == ""
 
 
+@pytest.mark.parametrize(("target", "make", "latency"), [FOLLOW[2], FOLLOW[4], FOLLOW[6], FOLLOW[8]])
+def test_the_published_sequences_blame_no_program_that_follows(
+    target: str, make: Callable[[], Program], latency: int
+) -> None:
+    suite = open_suite(root() / f"vectors/{target}/sequences.jsonl.gz")
+    for case in suite.cases():
+        wires = [(scan.dt_ms, scan.inputs) for scan in case.scans]
+        if not case.params.get("SELECTIONS"):
+            assert broken(target, make(), wires, latency, case.params) == "", case.id
+
+
 def test_a_narrower_permission_meets_the_demands() -> None:
     narrow = {"PERMITS_3": [3], "PERMITS_4": [2, 4]}
     for target, name in (
@@ -189,7 +206,7 @@ FAULTS_FPLC = {
     "manual mode is never switched off": {"OneModeAtMost"},
     "the mode ends with the key": {"ModeStays"},
     "the level stays after the removal": {"RemovalClearsTheLevel"},
-    "the error mode is never left": {"ErrorEndsAtRest"},
+    "the error mode is never left": {"NoErrorInAGoodCourse"},
     "no error is ever reported": {
         "NoCodeIsAFault",
         "AboveTheLevelIsAFault",

@@ -110,6 +110,16 @@ def test_a_profile_without_a_case_is_no_pass(tmp_path: Path, capsys: pytest.Capt
     assert "no case of brief is for the profile cautious" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("asked", [LETTER, CAUTIOUS])
+def test_a_profile_is_refused_where_there_are_none(asked: str, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(ROOT / "vectors/fplc/sequences.jsonl.gz")
+    given = ["conform", "fplc", "--builtin", "refimpl", "--vectors", path, "--quiet", "--profile"]
+    assert kit_main([*given, asked]) == 2
+    assert f"fplc has no profiles, so it has none that is {asked}" in capsys.readouterr().err
+    assert kit_main([*given, ALL]) == 0
+    assert kit_main([*given, ""]) == 2
+
+
 def test_a_target_without_profiles_is_left_whole(tmp_path: Path) -> None:
     write_suite(tmp_path / "s", "brief", [lamp_graph(tmp_path)])
     suite = open_suite(tmp_path / "s")

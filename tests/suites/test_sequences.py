@@ -9,10 +9,11 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.graph.columns import merge_columns
+from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents, machines
 from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
-from modeproof.kit.vectors import open_suite
+from modeproof.kit.vectors import Case, open_suite
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.suites.sequences import plan, read
@@ -39,6 +40,22 @@ def test_flows_and_branches_are_cases_a_good_program_passes(tmp_path: Path) -> N
     assert cases[0].scans[2].outputs == {"LAMP": True, "MW": "0FF0"}, "from the graph: nobody declared it"
     assert run_suite(suite, starter(tmp_path)).word == CONFORMS
     assert run_suite(suite, starter(tmp_path, "LIMIT = 501")).word == DIFFERS
+
+
+def test_a_list_of_steps_takes_one_scan_each(tmp_path: Path) -> None:
+    old = 'times = 2, step = "StayOn"'
+    assert old in SEQUENCES
+    graphs = [
+        lamp_graph(tmp_path / name, sequences=SEQUENCES.replace(old, new))
+        for name, new in (("times", old), ("list", 'step = ["StayOn", "StayOn"]'))
+    ]
+    scans = [[case.scans for case in _cases(tmp_path, graph)] for graph in graphs]
+    assert scans[0] == scans[1]
+
+
+def _cases(folder: Path, graph: DeviceGraph) -> list[Case]:
+    write_suite(folder / "s", "sequences", [graph])
+    return list(open_suite(folder / "s").cases())
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,16 @@ def test_a_grown_count_is_shown_old_to_new_and_moved(tmp_path: Path) -> None:
     assert text.startswith("# runs of the toy\n") and text.count("one more state a floor") == 1
     assert reasons_of(root, "toy")[-1].endswith(": one more state a floor")
     assert moves(root, checked(root, "MC_toy", outcome("MC_toy"))) == ()
+
+
+@pytest.mark.parametrize("before", ["[]", '["one", "two"]', '[\n    "one",\n    "two",\n]'])
+def test_a_reason_goes_to_the_end_of_its_list(tmp_path: Path, before: str) -> None:
+    root = toy_tree(tmp_path, "MC_toy", distinct=12, generated=20)
+    path = root / "spec/toy/runs.toml"
+    path.write_text(f"moved = {before}\n{path.read_text()}")
+    apply(root, {"toy": {"MC_toy": moves(root, checked(root, "MC_toy", outcome("MC_toy")))}}, "three")
+    told = tomllib.loads(path.read_text())["moved"]
+    assert told[:-1] == tomllib.loads(f"a = {before}")["a"] and told[-1].endswith(": three")
 
 
 def test_missing_pins_are_added_and_nothing_else_changes(tmp_path: Path) -> None:
