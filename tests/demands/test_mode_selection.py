@@ -206,7 +206,7 @@ FAULTS_FPLC = {
     "manual mode is never switched off": {"OneModeAtMost"},
     "the mode ends with the key": {"ModeStays"},
     "the level stays after the removal": {"RemovalClearsTheLevel"},
-    "the error mode is never left": {"ErrorEndsAtRest"},
+    "the error mode is never left": {"NoErrorInAGoodCourse"},
     "no error is ever reported": {
         "NoCodeIsAFault",
         "AboveTheLevelIsAFault",
