@@ -80,13 +80,19 @@ def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
 
 
 def _runs(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem]:
-    """The readings of every run can be used, and one that breaks nothing changes something."""
+    """The readings of every run can be used; one that breaks nothing changes something, and is asked in the
+    view of its base.
+    """
+    of_base = {run.id: run.module for run in document.runs}
     for run in document.runs:
         try:
             replaced_by(modules, run)
         except Unjudged as error:
             place = f"{document.source('runs')}: run {run.id}: "
             yield Problem(document.source("runs"), run.id, error.message.removeprefix(place))
+        asked = run.readings and run.kind in ASKING
+        if asked and run.view is not None and run.module == of_base.get(run.base):
+            yield Problem(document.source("runs"), run.id, "tries a reading in a view that is not its base's")
         counts = (run.distinct, run.generated)
         if not run.of and run.kind != "NEG" and None not in counts and (text := _idle(document, run, counts)):
             yield Problem(document.source("runs"), run.id, text)

@@ -107,6 +107,12 @@ def test_a_finding_that_says_harmless_shows_the_run(tried: Any) -> None:
     assert any(expected in line for line in tried.problems()), tried.problems()
 
 
+def test_a_reading_is_asked_in_the_view_of_its_base(tried: Any) -> None:
+    tried.edit(SPEC + "runs.toml", 'reading = "Slow"', 'reading = "Slow"\nview = "hides"')
+    expected = "MC_Latch_slow: tries a reading in a view that is not its base's"
+    assert any(expected in line for line in tried.problems()), tried.problems()
+
+
 def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
     old = 'generated = 20\nproperties = ["'
     tried.edit(SPEC + "runs.toml", f"{old}Open", f'{old}TypeOK", "Open')

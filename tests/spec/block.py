@@ -41,5 +41,6 @@ class Block:
         return set(readings_of(self.registers, modules))
 
     def tried(self) -> dict[str, str]:
-        """The kind of the run that tries each reading."""
-        return {reading: run.kind for run in self.runs.values() for reading in run.readings}
+        """The kind of the run that tries each reading; that of the demands where there is no other."""
+        runs = sorted(self.runs.values(), key=lambda run: not run.module.endswith("Demands"))
+        return {reading: run.kind for run in runs for reading in run.readings}
