@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import shlex
 import signal
 import sys
 import threading
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program, split_command
+from modeproof.kit.again import TEST_RIG, again, program_words
 from modeproof.kit.builtin import package_files
 from modeproof.kit.bundle import Bundle, not_published
 from modeproof.kit.errors import Unjudged
@@ -38,8 +38,6 @@ from modeproof.kit.text import (
 )
 from modeproof.kit.two_answers import judge_both
 from modeproof.kit.vectors import EXACT, FILE_NAME, MONITOR, SETTLED, Suite, open_suite
-
-TEST_RIG = "--i-know-this-is-a-test-rig"
 
 EXIT_UNJUDGED = 2
 FAST = "fast"
@@ -383,60 +381,6 @@ def s7_adapter(args: argparse.Namespace, suite: Suite) -> list[str]:
     command += ["--vectors", str(suite.path), "--member", suite.member, "--timeout", f"{args.timeout:g}"]
     command.append(TEST_RIG)
     return command
-
-
-def program_words(args: argparse.Namespace) -> str:
-    """The options that name the program."""
-    if args.adapter is not None:
-        return f"--adapter {quoted(args.adapter)}"
-    if args.s7 is not None:
-        return f"--s7 {args.s7} --map {quoted(str(args.map))} {TEST_RIG}"
-    return f"--builtin {args.builtin}"
-
-
-def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
-    """The command that runs the shortest case of the difference again."""
-    found = verdict.difference
-    if found is None:
-        return ""
-    packed = sys.argv[0].endswith(".pyz")
-    words = [f"python3 {quoted(sys.argv[0])}" if packed else "modeproof", "conform", args.target]
-    words.append(program_words(args))
-    if args.document:
-        words.append(f"--document {args.document}")
-    words.append(f"--vectors {quoted(str(suite.path))}" if args.vectors else f"--suite {suite.name}")
-    for name, value, usual in (
-        ("relation", args.relation, EXACT),
-        ("latency", args.latency, None),
-        ("hold", args.hold, 0),
-        ("slow", args.slow, 1),
-    ):
-        if value != usual:
-            words.append(f"--{name} {value}")
-    words += ["--same"] * bool(args.same)
-    words += [f"--param {quoted(text)}" for text in args.param]
-    if args.profile not in (None, LETTER):
-        words.append(f"--profile {args.profile}")
-    if args.codes:
-        words.append("--codes")
-    # A part of a case has another id than the case, which no file knows.
-    words.append(f"--case {args.case or found.case.id}")
-    if args.scans is not None:
-        words.append(f"--scans {quoted(args.scans)}")
-    elif found.confirmed and len(found.shortest.scans) < len(found.case.scans):
-        words.append(f"--scans {quoted(found.part)}")
-    return " ".join(words)
-
-
-def quoted(text: str) -> str:
-    """A word of a command line for sh and for Windows alike: in double quotes where it needs them.
-
-    In single quotes where sh would read something into it.
-    """
-    simple = text and all(char.isalnum() or char in "_-./:=+@%,\\" for char in text)
-    if any(char in text for char in "$`!"):
-        return shlex.quote(text)
-    return text if simple else '"' + text.replace('"', '\\"') + '"'
 
 
 def _now_and_then(report: Callable[[int, int], None]) -> Callable[[int, int], None]:

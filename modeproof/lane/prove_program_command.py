@@ -13,7 +13,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import adding
 from modeproof.ground.solvers import needing_solvers
-from modeproof.kit.kit_command import quoted
+from modeproof.kit.again import quoted
 from modeproof.output.options import About, add_options, carried_out
 from modeproof.output.outcome import Outcome, shown_path
 

@@ -158,7 +158,7 @@ class Adapter(Row, frozen=True, kw_only=True):
     PATHS = ("files", "vectors")
     OPTIONS = (
         *("document", "suite", "vectors", "relation", "latency", "hold", "slow", "param", "profile"),
-        *("codes", "jobs", "timeout"),
+        *("same", "codes", "jobs", "timeout"),
     )
 
     target: Text
@@ -173,6 +173,7 @@ class Adapter(Row, frozen=True, kw_only=True):
     slow: Factor | None = None
     param: Params = msgspec.field(default_factory=dict)
     profile: Literal["letter", "cautious", "all"] | None = None
+    same: bool = False
     codes: bool = False
     jobs: Factor | None = None
     timeout: Seconds | None = None

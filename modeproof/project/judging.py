@@ -21,7 +21,7 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import TREE, build, root
 from modeproof.ground.progress import Progress
 from modeproof.kit.adapter import split_command
-from modeproof.kit.kit_command import quoted
+from modeproof.kit.again import quoted
 from modeproof.output import outcome
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome

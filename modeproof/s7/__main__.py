@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from modeproof.kit.again import TEST_RIG
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.kit_command import TEST_RIG
 from modeproof.kit.parser import Parser
 from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite

@@ -17,7 +17,7 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
 from modeproof.ground.meaning import reached
 from modeproof.ground.places import build, root
-from modeproof.kit import kit_command
+from modeproof.kit import again, kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.profile import ALL, LETTER
 from modeproof.kit.text import as_record
@@ -85,7 +85,7 @@ def _program(args: argparse.Namespace) -> tuple[list[Suite], list[Verdict]]:
     suites = [suite.demanding(table, texts) for suite in kit_command.in_profile(args, suites)]
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
-        args.adapter = " ".join(map(kit_command.quoted, [sys.executable, str(place / OWN), args.target]))
+        args.adapter = " ".join(map(again.quoted, [sys.executable, str(place / OWN), args.target]))
     started = time.time()
     verdicts = kit_command.judge(args, suites)
     for suite, verdict in zip(suites, verdicts, strict=False):  # an interrupted run has fewer
@@ -135,7 +135,7 @@ def _own_inputs(place: Path, document: str, target: str, suite: Path) -> dict[st
 def own_record(place: Path, document: str, suite: Suite, verdict: Verdict, started: float) -> dict[str, Any]:
     """The evidence of the reference implementation behind the adapter protocol."""
     about = {"device": suite.target, "implementation": REFERENCE}
-    adapter = kit_command.quoted(f"python {OWN} {suite.target}")
+    adapter = again.quoted(f"python {OWN} {suite.target}")
     asked = f"--suite {suite.name} --codes --same --profile {ALL}"
     command = f"modeproof conform {suite.target} --adapter {adapter} {asked}"
     id = own_id(suite.target, suite.name)
@@ -152,7 +152,7 @@ def _write_yours(
     profile = [] if args.profile in (None, LETTER) else [args.profile]
     command = " ".join(
         [
-            f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
+            f"modeproof conform {args.target} --adapter {again.quoted(args.adapter)}",
             f"--suite {suite.name}",
             *([f"--relation {args.relation}"] if manner else []),
             *([f"--latency {args.latency}"] if args.latency is not None else []),

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit import kit_command
+from modeproof.kit import again
 from modeproof.kit.adapter import split_command
 from modeproof.kit.diagnosis import step_there
 from modeproof.kit.text import as_text, difference_lines, joint, verdict_word
@@ -64,7 +64,7 @@ def outcome_of(
         not_shown=list(dict.fromkeys(text for pair in pairs for text in _not_shown(*pair))),
         reason="; ".join(one.reason for row in verdicts for one in row.judged if one.word == UNJUDGED),
         text="\n".join(
-            as_text(verdict, kit_command.again(args, suite, verdict), suite, verdict is verdicts[-1])
+            as_text(verdict, again.again(args, suite, verdict), suite, verdict is verdicts[-1])
             for suite, verdict in pairs
         ),
         again=args.about(args).again,
@@ -192,14 +192,14 @@ def _spot(own: Sequence[File]) -> Spot | None:
 
 def about(args: argparse.Namespace) -> About:
     """What the arguments ask for."""
-    words = ["modeproof", "conform", args.target, kit_command.program_words(args)]
+    words = ["modeproof", "conform", args.target, again.program_words(args)]
     words += [f"--document {args.document}"] if args.document else []
-    words += [f"--vectors {kit_command.quoted(str(args.vectors))}"] if args.vectors else []
+    words += [f"--vectors {again.quoted(str(args.vectors))}"] if args.vectors else []
     words += [f"--suite {name}" for name in args.suite or ()]
     usual = {"relation": EXACT, "latency": None, "hold": 0, "slow": 1, "profile": None, "case": None}
     usual |= {"scans": None}
     words += [f"--{name} {getattr(args, name)}" for name in usual if getattr(args, name) != usual[name]]
-    words += [f"--param {kit_command.quoted(text)}" for text in args.param]
+    words += [f"--param {again.quoted(text)}" for text in args.param]
     words += ["--codes"] * bool(args.codes) + ["--same"] * bool(args.same)
     return About(
         command="conform",

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit.kit_command import quoted
+from modeproof.kit.again import quoted
 from modeproof.output.options import About, Clock
 from modeproof.output.outcome import (
     Counterexample,

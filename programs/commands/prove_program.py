@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.places import build, root
+from modeproof.kit.again import quoted
 from modeproof.kit.files import write_text
-from modeproof.kit.kit_command import quoted
 from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome

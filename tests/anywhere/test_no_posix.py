@@ -69,7 +69,7 @@ def test_a_program_of_windows_is_proved(tmp_path: Path) -> None:
     name = "Bündel Ω.st"  # the console has one of the two letters
     windows_text(ST / "sf_edm.st", tmp_path / name)
     said = command(tmp_path, "prove-program", name, "--target", "sf_edm", "--json", "v.json")
-    assert said.startswith("PROVED: function block SF_EDM of Bündel \\u03a9.st has the outputs")
+    assert said.startswith("FOLLOWS: function block SF_EDM of Bündel \\u03a9.st follows the page")
     assert (tmp_path / "v.json").is_file()
 
 

@@ -23,10 +23,10 @@ from modeproof.ground.errors import Unjudged as GroundUnjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.adapter import Adapter
+from modeproof.kit.again import quoted
 from modeproof.kit.compact import FORM, expand
 from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.files import write_json, write_text
-from modeproof.kit.kit_command import quoted
 from modeproof.kit.suite_judge import Options, Plan, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text, difference_lines, joined
 from modeproof.kit.vectors import Suite, open_suite

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.kit.kit_command import TEST_RIG
+from modeproof.kit.again import TEST_RIG
 from modeproof.kit.vectors import open_suite
 from modeproof.s7.__main__ import Adapter, main
 from tests.s7.server import FREE, STEPPED, Plc

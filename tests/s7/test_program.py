@@ -19,8 +19,8 @@ from snap7.connection import ISOTCPConnection
 
 from examples.faulty.run import vectors
 from modeproof.ground.places import root
+from modeproof.kit.again import TEST_RIG
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.kit_command import TEST_RIG
 from modeproof.kit.relation import Options
 from modeproof.kit.suite_judge import Plan, Verdict, run_suite
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, case_id, changes, open_suite

@@ -50,7 +50,7 @@ def compiled(text: str) -> CodeType:
 
 
 @pytest.mark.deep
-def test_a_demand_that_it_does_not_keep_is_broken_by_scans() -> None:
+def test_a_demand_that_it_does_not_keep_is_broken() -> None:
     judgement = turned(judgement_of("sf_enable_switch", "letter", 20), "NoEnableInError")
     found = {one.asked.id: one for one in judgement.all()}
     broken = found["NoEnableInError"].broken

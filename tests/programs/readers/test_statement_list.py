@@ -13,7 +13,7 @@ import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
-from programs.commands.prove_program import not_shown, text_of
+from programs.commands.prove_program import limits, text_of
 from programs.equality.comparison import make
 from programs.equality.verdict import Verdict, judge
 from programs.language.tool_differences import assumed
@@ -243,7 +243,7 @@ def test_what_is_not_retentive_stands_in_map_and_verdict(tmp_path: Path) -> None
     assert found.word == "PROVED"
     said = "\n".join(text_of(found, 1.0))
     assert "  assumed     DB20 is not retentive (" in said and "; MB0-MB8 is not retentive (" in said
-    assert sum("DB20 is not retentive" in line for line in not_shown(found)) == 1
+    assert sum("DB20 is not retentive" in line for line in limits(found.product)) == 1
 
 
 @pytest.mark.parametrize("address", ["DB", "MB9-MB8", "M0.0", "QB0-QB1", ""])
