@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.places import root
-from modeproof.kit.relation import Options
+from modeproof.kit.demands import Watch
+from modeproof.kit.relation import LATENCY, Options
 from modeproof.kit.suite_judge import run_suite
 from modeproof.kit.vectors import MONITOR, Suite, open_suite
 from modeproof.kit.verdict import Plan, Verdict
@@ -101,3 +102,22 @@ def verdicts(target: str, path: Path, names: tuple[str, ...]) -> list[Verdict]:
     device = load_interface(root(), DOCUMENT[target]).devices[target]
     plan = Plan(options=Options(MONITOR), effort=0)
     return [run_suite(suite, lambda: Literal(path, device), plan=plan) for suite in suites_of(target, names)]
+
+
+def broken_by(target: str, path: Path, wires: Sequence[tuple[int, int, str]]) -> str:
+    """The demand that the program breaks on these wires: so many scans, the ms of each, the inputs TRUE."""
+    device = load_interface(root(), DOCUMENT[target]).devices[target]
+    (suite,) = suites_of(target, ("sequences",))
+    demands = suite.demands()
+    assert demands is not None
+    program, watch = Literal(path, device), Watch(demands, LATENCY)
+    program.reset({})
+    watch.reset({})
+    for count, dt_ms, on in wires:
+        words = {name: "0000" if of.type == "word" else False for name, of in device.inputs.items()}
+        row = {**words, **dict.fromkeys(on.split(), True)}
+        for _ in range(count):
+            found = watch.scan(dt_ms, row, program.scan(dt_ms, row))
+            if found is not None:
+                return found.id
+    return ""

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tests.demands.literal_program import DOCUMENT, PLACE, verdicts
+from tests.demands.literal_program import DOCUMENT, PLACE, broken_by, verdicts
 
 FAULTS = tomllib.loads((PLACE / "faults.toml").read_text("utf-8"))["fault"]
 SUITES = ("sequences", "brief")
@@ -47,6 +47,10 @@ def test_a_fault_breaks_the_page(number: int, tmp_path: Path) -> None:
     assert text.count(row["old"]) == 1
     wrong = tmp_path / f"{row['program']}.st"
     wrong.write_text(text.replace(row["old"], row["new"]), "utf-8")
+    if "wires" in row:
+        assert broken_by(row["program"], wrong, row["wires"]) == "LevelAfterTheTestPulse"
+        assert broken_by(row["program"], PLACE / f"{row['program']}.st", row["wires"]) == ""
+        return
     found = (verdict for suite in SUITES for verdict in verdicts(row["program"], wrong, (suite,)))
     assert any(verdict.word == "BREAKS" for verdict in found)
 
