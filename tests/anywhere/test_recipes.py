@@ -100,10 +100,12 @@ def test_each_recipe_judges_a_foreign_repository(installed: Installed, tmp_path:
         ran = [command for command in commands() if command != INSTALL]  # what is installed was by this line
         assert len(ran) == 1, name
         done = installed.run(folder, "sh", "-c", ran[0], GITHUB_STEP_SUMMARY=str(summary))
-        assert re.search(r"^sf_edm +PROVED +sf_edm", done.stdout, re.M), name
+        assert re.search(r"^sf_edm +FOLLOWS +", done.stdout, re.M), name
         assert re.search(r"^fplc_good +CONFORMS +fplc", done.stdout, re.M), name
         assert f"2 as expected; {2 if number else 0} kept" in done.stdout
-    assert "PROVED" in summary.read_text("utf-8") and "PROVED" in (folder / "modeproof.md").read_text("utf-8")
+    assert "FOLLOWS" in summary.read_text("utf-8") and "FOLLOWS" in (folder / "modeproof.md").read_text(
+        "utf-8"
+    )
     assert json.loads((folder / "modeproof.sarif").read_text("utf-8"))["runs"][0]["results"] == []
 
 
@@ -112,9 +114,10 @@ def test_a_program_that_differs_fails_in_each_form(installed: Installed, tmp_pat
     folder = write(tmp_path / "theirs", modeproof_toml=TOML, plc__contactors_st=WRONG)
     installed.run(folder, "sh", "-c", JUDGE, status=1)
     [suite] = ElementTree.parse(folder / "modeproof.xml").getroot()
-    assert suite.get("name") == "contactors" and (suite.get("failures"), suite.get("errors")) == ("1", "0")
+    assert suite.get("name") == "contactors" and suite.get("errors") == "0"
+    assert int(suite.get("failures") or 0) > 0, "the demands that it breaks"
     [run] = json.loads((folder / "modeproof.sarif").read_text("utf-8"))["runs"]
-    [result] = run["results"]
+    result = run["results"][0]
     where = result["locations"][0]["physicalLocation"]
     assert where["artifactLocation"]["uri"] == "plc/contactors.st" and where["region"]["startLine"] > 1
     assert "REFUTED" in (folder / "modeproof.md").read_text("utf-8")

@@ -57,7 +57,7 @@ def test_one_command_proves_a_block_twice_at_once(installed: Installed, tmp_path
     for name, process in running.items():
         said, _ = process.communicate()
         assert process.returncode == 0
-        assert said.startswith(f"PROVED: function block SF_EDM of {name} has the outputs of sf_edm (edm)")
+        assert said.startswith(f"FOLLOWS: function block SF_EDM of {name} follows the page of sf_edm (edm)")
     assert spent() - began <= 2 * PROOF_S
     assert sorted(path.name for path in tmp_path.iterdir()) == [".modeproof", "one.st", "spec", "two.st"]
     assert tool_files(installed) == before

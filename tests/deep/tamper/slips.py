@@ -603,8 +603,8 @@ REGISTERS = (
     register(
         "a finding about a reading that no run tries",
         RUNS,
-        'reading = "RequestBeforeTimeout"',
-        'reading = "StaticResetIgnored"',
+        'NEG_SF_EDM_request_before_timeout = { reading = "RequestBeforeTimeout"',
+        'NEG_SF_EDM_request_before_timeout = { reading = "StaticResetIgnored"',
         "RequestBeforeTimeout",
     ),
     Case(

@@ -241,6 +241,7 @@ def test_a_difference_is_kept_as_a_vector(tmp_path: Path, capsys: pytest.Capture
     path, file = changed(tmp_path, *FAULTS["an output that stays on"]), tmp_path / "difference.jsonl"
     junit = tmp_path / "out.xml"
     given = ["prove-program", str(path), "--target", "sf_edm", "--vector", str(file), "--junit", str(junit)]
+    given.append("--same")
     assert main(given) == 1
     assert 'failures="1"' in junit.read_text("utf-8")
     case = next(iter(open_suite(file).cases()))
