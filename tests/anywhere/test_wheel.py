@@ -16,7 +16,7 @@ pytestmark = pytest.mark.deep
 MOST_MB, WHEEL_MB = 160, 10
 NOT_OURS = ("pip", "setuptools", "pkg_resources", "_distutils_hack", "distutils-precedence")
 """What every virtual environment has."""
-HELP_S, PROOF_S = 0.3, 5.0
+HELP_S, PROOF_S = 0.3, 15.0
 """Of CPU."""
 
 
