@@ -657,6 +657,30 @@ def several_at_once_judge_alike(kit: Kit) -> None:
         assert kit.run(of, lambda: Spoiled({(2, "B"): False}), jobs=jobs).word == "DIFFERS"
 
 
+def the_page_decides_and_the_reference_where_asked(kit: Kit) -> None:
+    def verdict(word: str, **more: Any) -> Any:
+        return kit.verdict.Verdict(word, "stages", "by hand", "exact", **more)
+
+    words = {"FOLLOWS": 0, "BREAKS": 1, "UNJUDGED": 2}
+    for page, status in words.items():
+        for own, other in {"CONFORMS": 0, "DIFFERS": 1, "UNJUDGED": 2}.items():
+            first = verdict(page)
+            one, both = verdict(own, page=first), verdict(own, page=first, same=True)
+            assert verdict(own).status == other and verdict(own).judged[0].word == own
+            if page == "UNJUDGED":
+                assert one.judged == (one,) and (one.status, both.status) == (other, other)
+                continue
+            assert one.judged == (first,) and both.judged == (first, both)
+            assert (one.status, both.status) == (status, max(status, other))
+    ended = verdict("UNJUDGED", interrupted=True)
+    assert verdict("CONFORMS", page=ended).judged == (ended,)
+    found = kit.run(
+        suite([case([(0, False, True)])], ["monitor"]), lambda: Spoiled({(1, "B"): True}), "monitor"
+    )
+    line = found.difference.in_a_line
+    assert "expected" not in line and line.endswith("(breaks BNeedsGo): B is true")
+
+
 def trouble_of_any_kind_is_unjudged(kit: Kit) -> None:
     of = suite(walks(3, False), ["exact"], None)
 
