@@ -72,12 +72,10 @@ def load_demands(place: Path, document: str, device: Device) -> dict[str, Any] |
         inputs, outputs = (
             read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)
         )
-        given = declare_parameters(device, modes)
-        if "undemanded" in _toml(path, where):
-            outputs = {name: signal for name, signal in outputs.items() if not signal.project}
-            ours = {name for name, of in device.parameters.items() if of.project or of.cautious is not None}
-            given = {name: row for name, row in given.items() if name not in ours}
-        read_demands(table, inputs, outputs, given, where)
+        printed = {name: signal for name, signal in outputs.items() if not signal.project}
+        ours = {name for name, of in device.parameters.items() if of.project or of.cautious is not None}
+        given = {name: row for name, row in declare_parameters(device, modes).items() if name not in ours}
+        read_demands(table, inputs, printed, given, where)
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     return table

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -58,6 +59,24 @@ def test_what_does_not_fit_is_refused(toy: Path, old: str, new: str, said: str) 
     with pytest.raises(Unjudged) as caught:
         load_demands(toy, "toy", load_interface(toy, "toy").devices["lamp"])
     assert said in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("document", "target", "name"),
+    [
+        ("edm", "sf_edm", "DiagCode"),
+        ("edm", "sf_edm", "AFTER_RESET"),
+        ("enable_switch", "sf_enable_switch", "ResetRequest"),
+    ],
+)
+def test_a_demand_names_nothing_of_ours(tmp_path: Path, document: str, target: str, name: str) -> None:
+    room = tmp_path / "spec" / document
+    shutil.copytree(root() / "spec" / document, room)
+    (room / "demands.toml").write_text(
+        f"[device.{target}.demand.Ours]\nsays = 'o.'\nclauses = ['C']\nwhen = 'True'\nholds = '{name} == 0'\n"
+    )
+    with pytest.raises(Unjudged, match=f"demand 'Ours': unknown name '{name}'"):
+        load_demands(tmp_path, document, load_interface(tmp_path, document).devices[target])
 
 
 def every_device() -> list[tuple[str, str]]:
