@@ -70,12 +70,14 @@ class Top(Entry, frozen=True, kw_only=True):
 
 class Traces(Entry, frozen=True, kw_only=True):
     """The whole register. `step` is the variable with the step's name, written where the constant `recorded`
-    is true, and `with_step` are the variables written with it.
+    is true, and `with_step` are the variables written with it. `no_step` is its value after a scan in which
+    the device of a model takes no step.
     """
 
     step: Name = "step"
     recorded: Name = "RECORD_STEPS"
     with_step: Names = ()
+    no_step: Name = "NoStep"
     nobody: dict[str, str] = field(default_factory=dict)
     words: tuple[Words, ...] = field(default=(), name="word")
     vectors: tuple[Vector, ...] = field(default=(), name="vector")
