@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Annotated
 
 from msgspec import Meta, field
+from msgspec.structs import replace
 
+from modeproof.registers.demands import MODULE
 from modeproof.registers.load import read_register
 from modeproof.registers.typed import (
     Entry,
@@ -24,6 +26,12 @@ from modeproof.registers.typed import (
     tables,
     typed,
 )
+
+
+OPEN, OF_DEMANDS = "Open", "DemandsNext"
+"""The end of the name of a module in which a device is alone, and the step relation of the module in which its
+demands are judged: that one is read as the other, where nothing else is said.
+"""
 
 
 class Words(Entry, frozen=True, kw_only=True):
@@ -116,4 +124,10 @@ def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
     data = read_register(root, name, "replay")
     data.pop("target", None)
-    return typed(Traces, data, f"spec/{name}/replay.toml")
+    traces = typed(Traces, data, f"spec/{name}/replay.toml")
+    of_demands = {
+        f"{module.removesuffix(OPEN)}{MODULE}": replace(top, next=OF_DEMANDS)
+        for module, top in traces.tops.items()
+        if module.endswith(OPEN)
+    }
+    return replace(traces, tops=of_demands | traces.tops)
