@@ -152,7 +152,9 @@ def _runs_to_check(work: Renewal, stale: Stale) -> Iterator[Run]:
     checked = {pin.removeprefix("checked.") for pin in stale.pins}
     for run in load_runs(work.tree, work.name):
         full = "full" in run.lanes
-        changed = stale.targets or told & {*stale.stories} or checked & {*run.properties, *_names(work.tree, run)}
+        changed = (
+            stale.targets or told & {*stale.stories} or checked & {*run.properties, *_names(work.tree, run)}
+        )
         if run.id in stale.stories or (full and changed):
             yield run
 

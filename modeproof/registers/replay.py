@@ -27,10 +27,9 @@ from modeproof.registers.typed import (
     typed,
 )
 
-
 OPEN, OF_DEMANDS = "Open", "DemandsNext"
-"""The end of the name of a module in which a device is alone, and the step relation of the module in which its
-demands are judged: that one is read as the other, where nothing else is said.
+"""The end of the name of a module in which a device is alone, and the step relation of the module in which
+its demands are judged: that one is read as the other, where nothing else is said.
 """
 
 
