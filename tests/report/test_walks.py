@@ -60,7 +60,7 @@ def test_a_module_with_copies_alone_stays_out_of_the_cfg() -> None:
     assert everywhere([], "TLCEval", "EDM", there) == "CONSTANT TLCEval <- [EDM]walk_TLCEval\n"
 
 
-def test_a_scan_without_a_step_is_a_scan_of_its_device() -> None:
+def test_a_scan_without_a_step_has_its_device() -> None:
     """Where a model has one device; in the whole system nobody can say whose it would be."""
     traces = load_replay(root(), "mode_selection")
     for module, who in (("PlcDemands", "plc"), ("KeyFlows", "")):
