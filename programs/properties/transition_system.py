@@ -15,6 +15,7 @@ from typing import Any
 import z3
 
 from programs.language.memory import leaves
+from programs.language.shared_memory import completed
 from programs.language.subset import check, reached
 from programs.language.tree import BOOL, Expression, Source, Unit
 from programs.language.types import Types
@@ -78,6 +79,7 @@ class Cell:
     ) -> Cell:
         """The cell, looked through. Raises Unjudged with file, line and cause."""
         whole = with_blocks(source)
+        unit = completed(whole, unit)
         check(whole, unit)
         for found in reached(whole, unit, ()):
             check_parameters(whole, found)

@@ -45,7 +45,7 @@ from programs.semantics.terms import (
     singles,
     standard_call,
 )
-from programs.semantics.translator_expressions import Context
+from programs.semantics.translator_expressions import Context, frame
 
 
 @dataclass(frozen=True)
@@ -230,9 +230,10 @@ class Translator(Obliged):
             inputs, outputs = handed_to_function(unit, call)
             given = {name.upper(): value for name, value in inputs}
             inner = at.called(given, unit, call.place, env, here)
+            env |= {path: inner[path] for path in env}
             back = {name.upper() for name in unit.of("in_out")}
             for name, target in (*(pair for pair in inputs if pair[0].upper() in back), *outputs):
-                at.assign(target, {"": inner[name.upper()]}, env, here)
+                at.assign(target, {"": inner[f"{frame(unit)}{name.upper()}"]}, env, here)
             return
         instances = at.places(call.instance, env, here)
         kind = at.types.of(call.instance)
