@@ -168,7 +168,7 @@ class Cell:
     def holds(self, expression: Expression) -> z3.BoolRef:
         """The expression after a scan. Raises Unjudged: a value in it could leave its type."""
         own = Translator(self.source, self.unit, self.wrap)
-        term = Context(own, self.types, "").value(expression, dict(self.after), TRUE, BOOL)
+        term = Context(own, self.types, "", "").value(expression, dict(self.after), TRUE, BOOL)
         if any(not _follows(owed.formula) for owed in own.obligations):
             raise expression.place.refuse(
                 "a value here could leave its type; compute it in the program and name the variable"
@@ -182,7 +182,7 @@ class Cell:
             return False
         free = {path: z3.FreshConst(term.sort()) for path, term in self.after.items()}
         own = Translator(self.source, self.unit, self.wrap)
-        term = Context(own, self.types, "").value(asked.holds, free, TRUE, BOOL)
+        term = Context(own, self.types, "", "").value(asked.holds, free, TRUE, BOOL)
         return _follows(term)
 
     # ------------------------------------------------------------ with plain values

@@ -24,7 +24,7 @@ class Frame:
         }
         """What VAR_TEMP holds when a call begins."""
         self.values: dict[str, Any] = {}
-        self.shared = self.values if shared is None else shared
+        self.shared = self.values if shared is None or unit.whole else shared
         self.external = frozenset(unit.of_keys("external"))
         self.values |= {
             key: self.made(variable.type, variable.initial)

@@ -110,15 +110,16 @@ class Translator(Obliged):
         }
         return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
 
-    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
-        """One call of a unit; `here`: the condition under which it happens."""
+    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef, root: str = "") -> None:
+        """One call of a unit; `here`: the condition under which it happens; root: the path above globals."""
+        root = above if unit.whole else root
         if unit.device is not None:
             unit.device.terms(above.removesuffix("."), env)
             return
         for name, variable in unit.of("temp").items():
             for path, kind, value in singles(variable.type, f"{above}{name.upper()}", variable.initial):
                 env[path] = constant(kind, value)
-        self.body(Context(self, Types(self.source, unit), above), unit.body, env, here)
+        self.body(Context(self, Types(self.source, unit), above, root), unit.body, env, here)
 
     def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> Left:
         """Carry out a body in `env`; returns where it was left before its end."""
@@ -248,7 +249,7 @@ class Translator(Obliged):
         for there, path in instances:
             made = env if z3.is_true(there) else dict(env)
             if kind.block.upper() in self.source.units:
-                self.call(self.source.units[kind.block.upper()], f"{path}.", made, both(here, there))
+                self.call(self.source.units[kind.block.upper()], f"{path}.", made, both(here, there), at.root)
             else:
                 standard_call(kind.block.upper(), path, made)
             if made is not env:

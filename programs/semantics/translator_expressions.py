@@ -71,11 +71,15 @@ Places = list[tuple[z3.BoolRef, str]]
 
 @dataclass(frozen=True)
 class Context:
-    """Where a body is: the translator, the types of its unit, and the path above its variables."""
+    """Where a body is: the translator, the types of its unit, and the path above its variables.
+
+    root: the path above the globals.
+    """
 
     translator: Obliged
     types: Types
     above: str
+    root: str
 
     def places(self, target: Expression, env: Env, here: z3.BoolRef) -> Places:
         """Where a variable is: its path, or with a free index each path that it may have and when.
@@ -85,7 +89,7 @@ class Context:
         match target:
             case Name(name, _):
                 own = self.types.unit.variables[name.upper()].section != "external"
-                return [(TRUE, f"{self.above if own else ''}{name.upper()}")]
+                return [(TRUE, f"{self.above if own else self.root}{name.upper()}")]
             case Member(of, name, _):
                 return [(there, f"{path}.{name.upper()}") for there, path in self.places(of, env, here)]
             case Index(of, index, place):
@@ -274,7 +278,7 @@ class Context:
             term = self.value(expression, env, here, kind)
             given = self.types.of(expression, kind)
             inner[f"{above}{key}"] = self.translator.fitted(term, given, kind, place, here)
-        self.translator.call(unit, above, inner, here)
+        self.translator.call(unit, above, inner, here, self.root)
         return inner
 
     def converted(
