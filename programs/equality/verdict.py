@@ -28,13 +28,16 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came out. `difference` belongs to REFUTED, `missing` to UNKNOWN."""
+    """What came out. `difference` belongs to REFUTED, with the `reading` that explains it, `missing` to
+    UNKNOWN.
+    """
 
     word: Literal["PROVED", "REFUTED", "UNKNOWN"]
     product: Product
     replayed: Replayed | None = None
     difference: Difference | None = None
     missing: str = ""
+    reading: str = ""
 
 
 def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: bool = True) -> Verdict:
