@@ -37,7 +37,7 @@ FILES = {
     "GVL.TcGVL": tc(
         "GVL",
         "GVL",
-        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL; Lamp AT %Q* : BOOL;\n  Steps : INT;\n"
+        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Lamp AT %Q* : BOOL; Steps : INT;\n"
         "END_VAR\n"
         "VAR_GLOBAL CONSTANT\n  LAST : INT := 3;\nEND_VAR",
     ),
