@@ -38,7 +38,7 @@ FILES = {
     "GVL.TcGVL": tc(
         "GVL",
         "GVL",
-        "VAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Steps: INT; Lamp AT %Q* : BOOL;\n"
+        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Steps: INT; Lamp AT %Q*: BOOL;\n"
         "END_VAR\n"
         "VAR_GLOBAL CONSTANT\n  LAST : INT := 3;\nEND_VAR",
     ),
@@ -137,8 +137,8 @@ REFUSED = {
     ),
     "a pragma": (
         "GVL.TcGVL",
-        "{attribute 'qualified_only'}",
-        "{attribute 'call_after_init'}",
+        "VAR_GLOBAL\n  Guard",
+        "{attribute 'call_after_init'}\nVAR_GLOBAL\n  Guard",
         "call_after_init",
     ),
     "inheritance": ("FB_Lamp.TcPOU", "FB_Lamp\nVAR", "FB_Lamp EXTENDS FB_Base\nVAR", "FB_Lamp.TcPOU"),
