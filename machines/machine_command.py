@@ -211,6 +211,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
         yield f"  assumed     {'; '.join(choices)}"
     for verdict in found:
         yield from _verdict(machine, verdict)
+    for why in dict.fromkeys(machine.not_asked.values()):
+        yield f"  not asked   {', '.join(id for id, own in machine.not_asked.items() if own == why)}: {why}"
     words = [verdict.word for verdict in found]
     seen = (*WORDS[:3], *(word for word in WORDS[3:] if word in words))
     counts = [f"{words.count(word)} {word}" for word in seen]
@@ -293,6 +295,7 @@ def record_of(
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),
         "verdicts": verdict_rows(found),
+        "not_asked": dict(machine.not_asked),
         "cpu_seconds": round(seconds, 1),
     }
 
