@@ -17,7 +17,7 @@ from typing import Any
 from machines import flowchart as machine_picture
 from machines import tlc_runs as machine_tlc
 from machines import vectors as machine_vectors
-from machines.composed_program import text_of, unit
+from machines.composed_program import text_of, with_own_wires
 from machines.concrete_runs import Scan
 from machines.equality import Equality
 from machines.killers import Killers, changed, read_killers
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     file = _file(args)
     wiring = read_wiring(file)
     if args.program is not None:
-        write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
+        write_text(args.program, text_of(with_own_wires(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
     machine = _machine(args, progress)

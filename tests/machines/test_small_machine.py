@@ -373,7 +373,7 @@ def playing(folder: Path, wiring: str, *rows: tuple[str, str]) -> Machine:
     return Machine(wiring, "my.toml", path, folder / "use.toml", leave_out=True, runs=20)
 
 
-def test_what_a_machine_has_not_is_not_asked_and_no_failure(folder: Path) -> None:
+def test_what_a_machine_has_not_is_no_failure(folder: Path) -> None:
     machine = playing(folder, WIRING)
     assert machine.not_asked == {"held": "no mode foot", "dark": "no SF_TestableSafetySensor"}
     found = machine.all(20)
@@ -414,7 +414,7 @@ def test_a_device_that_no_question_names_is_no_pass(name: str, tmp_path: Path) -
         ('gate = "hand"', "'hand' is a mode"),
     ],
 )
-def test_a_role_that_nobody_can_play_is_refused_in_its_line(row: str, said: str, folder: Path) -> None:
+def test_a_role_that_nobody_can_play_is_refused(row: str, said: str, folder: Path) -> None:
     machine = playing(folder, f"{WIRING}[roles]\n{row}\n")
     with pytest.raises(Unjudged) as caught:
         assert machine.cast
