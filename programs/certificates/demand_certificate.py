@@ -128,7 +128,8 @@ def judgement_of(
 ) -> Judgement:
     """The program with what is demanded of it. Raises Unjudged."""
     of = product.binding.reference
-    beside = Beside(Program(product), demands_of(of), Assumed(of, assumed), latency)
+    demands = demands_of(of)
+    beside = Beside(Program(product), demands, Assumed(of, assumed, demands.constant), latency)
     beside.check()
     return Judgement(beside, vectors, seconds, tell, product.wrap)
 

@@ -29,6 +29,7 @@ from programs.commands.following import Followed
 from programs.commands.outcomes import outcome_of_target
 from programs.commands.results import vector_of, write_record
 from programs.demands.observer import LATENCY
+from programs.demands.steady import changing, steady_difference
 from programs.equality.binding import read_assumed, read_binding
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
@@ -64,6 +65,7 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     given, assumed = (
         ({}, {}) if args.binding is None else (read_binding(args.binding), read_assumed(args.binding))
     )
+    assumed = {**assumed, "flips": True} if args.flips else assumed
     product = make(args.files, args.target, args.unit, given, args.wrap, codes=args.codes)
     vectors = root() / "vectors" / args.target
 
@@ -123,8 +125,13 @@ def _same(
             return None, [], {}
         found = Verdict("REFUTED", product, difference=first)
     if found.difference is not None:
+        assumed = followed.judgement.beside.assumed
         tell("looking for the reading that the program has")
-        found = replace(found, reading=reading_of(product, found.difference, vectors))
+        shown = steady_difference(assumed, product, found.difference, vectors)
+        said = [reading_of(product, shown, vectors)]
+        if flips := ", ".join(changing(assumed, shown)):
+            said.append(f"in these scans {flips} changes, which the page calls constant")
+        found = replace(found, difference=shown, reading="; ".join(filter(None, said)))
     lines: list[str] = []
     ways: Mapping[Pair, Run] = {} if found.replayed is None else found.replayed.ways(found.product)
     if args.same and args.certificate is not None and found.word == "PROVED":

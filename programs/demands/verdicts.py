@@ -163,7 +163,8 @@ class Judgement:
                     if longest is not None and max(scan.dt_ms for scan in case.scans) > longest:
                         continue
                     scans = [(scan.dt_ms, of.from_wire("inputs", scan.inputs)) for scan in case.scans]
-                    run = self.beside.assumed.fulfilling(Run(parameters, scans))
+                    assumed = self.beside.assumed
+                    run = assumed.fulfilling(assumed.steadied(Run(parameters, scans)))
                     if run.scans:
                         yield f"published vector {case.id} of {name}", run
             except KitUnjudged as error:
