@@ -45,7 +45,9 @@ def judgement_of(
     """The reference implementation in a profile, with what is demanded of it. Raises Unjudged."""
     of = reference(target)
     demands = demands_of(of)
-    beside = Beside(Implementation(of, profile), demands, Assumed(of, {}, demands.constant), latency)
+    beside = Beside(
+        Implementation.in_profile(of, profile), demands, Assumed(of, {}, demands.constant), latency
+    )
     beside.check()
     return Judgement(beside, root() / "vectors" / target, seconds, tell)
 

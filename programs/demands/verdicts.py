@@ -61,6 +61,8 @@ class Found:
     broken: Broken | None = None
     scans: int = 0
     proof: Proof | None = None
+    by_equality: bool = False
+    """It is proved of the reference, and the program is proved to be the same."""
 
 
 @dataclass
@@ -213,6 +215,10 @@ class Judgement:
         return houdini.lemmas()
 
     # ------------------------------------------------------------ one demand
+
+    def one(self, id: str) -> Found:
+        """The verdict on one demand."""
+        return self._judge(next(asked for asked in self.every if asked.id == id))
 
     def _judge(self, asked: Asked) -> Found:
         """Cheap questions first: few scans at once, few scans from power-up, Spacer, invariants."""
