@@ -20,6 +20,7 @@ from programs.equality.replay import MOST_SCANS, SUITES, Run
 from programs.equality.shorten import fewer
 from programs.invariants.houdini import Houdini
 from programs.invariants.induction import Proof, System, induction, shortest, spacer
+from programs.invariants.word_numbers import spacer_over_numbers
 from programs.semantics.terms import compared_with
 
 Word = Literal["PROVED", "BROKEN", "UNKNOWN"]
@@ -236,7 +237,8 @@ class Judgement:
             way, looked = shortest(self.system, bad, FEW_SCANS, started + seconds)
             if way is not None:
                 return self._replayed(asked, self.beside.wires.run_of(way))
-            proof = spacer(self.system, bad, [], seconds / 4)
+            proof = spacer_over_numbers(self.system, bad, [], seconds / 4)
+            proof = proof or spacer(self.system, bad, [], seconds / 4)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
