@@ -44,7 +44,7 @@ class Takes(Builtin):
         return out if inputs[INPUT] == self.taken else {**out, "S_OSSD_Out": True, "Error": True}
 
 
-def test_a_case_keeps_the_first_value_and_the_reference_says_the_rest() -> None:
+def test_a_case_keeps_the_first_value() -> None:
     suite = sensor("sequences")
     assert constant_inputs(suite) == (INPUT,)
     pairs = list(zip(suite.cases(), with_constants(suite).cases(), strict=True))
