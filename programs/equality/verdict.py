@@ -47,9 +47,16 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: b
     else scans are only left out. Raises Unjudged for a vector file that cannot be read.
     """
     first = published(product.binding, product.wrap, vectors)
+    return judge_after(product, first, seconds, tell, fewest)
+
+
+def judge_after(
+    product: Product, first: Difference | Replayed, seconds: float, tell: Tell, fewest: bool = True
+) -> Verdict:
+    """The same, after scans that were run on both: a difference, or what was met."""
     if isinstance(first, Difference):
         return Verdict("REFUTED", product, difference=_fewest(product, first, seconds, tell, fewest))
-    tell(f"{first.cases} published vectors replayed, {first.scans:,} scans")
+    tell(f"{first.cases} runs replayed, {first.scans:,} scans")
     try:
         doubts = _doubts(product, first, seconds, tell)
         if doubts and (found := _refuted(product, doubts, first, FIRST_S, tell)):

@@ -321,7 +321,7 @@ Body = tuple[Statement, ...]
 class Variable:
     """One declared variable.
 
-    section: input, output, in_out, var, temp or constant.
+    section: input, output, in_out, var, temp or constant; external: the memory is one that all units share.
     """
 
     name: str
@@ -333,6 +333,20 @@ class Variable:
     place: Place
     retained: bool = False
     """It may hold any value at power-up, such as that from before."""
+    address: str = ""
+    """Where it lies, such as %MW4; empty: at no address of its own."""
+    group: str = ""
+    """Of a global: the list that declares it, by which it may be called."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """When programs run: the ms between two scans (None: it is not said), and the programs in order."""
+
+    name: str
+    interval_ms: int | None
+    programs: tuple[str, ...]
+    place: Place
 
 
 class Device(Protocol):
@@ -370,12 +384,20 @@ class Unit:
     """VAR_TEMP, and all of a FUNCTION, has its first value when a call begins; else none (`undefined`)."""
     notes: tuple[str, ...] = ()
     """What the source leaves open and was taken as said here, one sentence each."""
+    others_call: tuple[str, ...] = ()
+    """Its methods and properties, which are not read: they do nothing where nobody names them."""
+    whole: bool = False
+    """Whether the globals are its own variables: it is the one that is judged."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
         return {
             variable.name: variable for variable in self.variables.values() if variable.section in sections
         }
+
+    def of_keys(self, section: str) -> dict[str, Variable]:
+        """The variables of a section, by their names in upper case."""
+        return {key: variable for key, variable in self.variables.items() if variable.section == section}
 
 
 @dataclass(frozen=True)
@@ -387,6 +409,9 @@ class Source:
     """The SHA-256 of each file."""
     refused: Mapping[str, Unjudged] = field(default_factory=dict)
     """Units and types that are there and cannot be read, by their names in upper case."""
+    tasks: tuple[Task, ...] = ()
+    words: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """All words, in upper case, of what is refused, by its name; none for what is not known so well."""
     kept: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
     """What the interpreter has made ready of these units, by their identity."""
 
@@ -419,6 +444,13 @@ class Source:
                 f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
             )
         return found[0]
+
+    def interval_of(self, unit: Unit) -> int | None:
+        """The ms between two scans of a program, if the source says it once."""
+        found = {
+            task.interval_ms for task in self.tasks if unit.name.upper() in map(str.upper, task.programs)
+        }
+        return next(iter(found)) if len(found) == 1 else None
 
     def chosen(self, unit: str | None) -> Unit:
         """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
