@@ -20,7 +20,7 @@ from programs.certificates.certificate_folder import digest, tools
 from programs.commands.outcomes import outcome_of_properties
 from programs.commands.results import write_record
 from programs.language.tool_differences import assumed
-from programs.properties.property_file import read_questions
+from programs.properties.property_file import interval_of, read_questions
 from programs.properties.property_verdicts import Found, Judgement
 from programs.properties.transition_system import Cell
 from programs.readers.sources import read_sources
@@ -164,7 +164,7 @@ def _not_shown(cell: Cell) -> Iterator[str]:
 
 def _times(cell: Cell) -> str:
     low, high = cell.scan_time
-    if low == high and low == cell.source.interval_of(cell.unit):
+    if low == high and low == interval_of(cell.source, cell.unit):
         return f"{low:,} ms, the interval of its task"
     return f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
 

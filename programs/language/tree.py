@@ -49,8 +49,8 @@ class Scalar:
 
     def member(self, name: str) -> int | None:
         """The place of a member of an enumeration; None: it has no such member."""
-        names = [known.upper() for known in self.names]
-        return names.index(name.upper()) if name.upper() in names else None
+        names = {known.upper(): number for number, known in enumerate(self.names)}
+        return names.get(name.upper())
 
     def starting(self, value: int) -> Scalar:
         """This type with another first value."""
@@ -391,13 +391,11 @@ class Unit:
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
-        return {
-            variable.name: variable for variable in self.variables.values() if variable.section in sections
-        }
+        return {one.name: one for one in self.variables.values() if one.section in sections}
 
     def of_keys(self, section: str) -> dict[str, Variable]:
         """The variables of a section, by their names in upper case."""
-        return {key: variable for key, variable in self.variables.items() if variable.section == section}
+        return {key: one for key, one in self.variables.items() if one.section == section}
 
 
 @dataclass(frozen=True)
@@ -411,7 +409,7 @@ class Source:
     """Units and types that are there and cannot be read, by their names in upper case."""
     tasks: tuple[Task, ...] = ()
     words: Mapping[str, frozenset[str]] = field(default_factory=dict)
-    """All words, in upper case, of what is refused, by its name; none for what is not known so well."""
+    """All words, in upper case, of what is refused, by its name."""
     kept: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
     """What the interpreter has made ready of these units, by their identity."""
 
@@ -422,10 +420,7 @@ class Source:
         return self.units.get(name.upper())
 
     def main(self) -> Unit:
-        """The unit that no other unit has an instance of; of several the one PROGRAM.
-
-        Raises Unjudged: there is none, or several, or one cannot be read, so that it might be meant.
-        """
+        """The unit that no other has an instance of; of several the one PROGRAM. Raises Unjudged."""
         for refusal in self.refused.values():
             raise refusal
         used = {
@@ -440,24 +435,15 @@ class Source:
             return programs[0]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
-            raise Unjudged(
-                f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
-            )
+            files = ", ".join(self.files)
+            raise Unjudged(f"{files}: which program is meant? {names}; choose with --unit NAME")
         return found[0]
-
-    def interval_of(self, unit: Unit) -> int | None:
-        """The ms between two scans of a program, if the source says it once."""
-        found = {
-            task.interval_ms for task in self.tasks if unit.name.upper() in map(str.upper, task.programs)
-        }
-        return next(iter(found)) if len(found) == 1 else None
 
     def chosen(self, unit: str | None) -> Unit:
         """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
         if unit is None:
             return self.main()
-        found = self.find(unit)
-        if found is not None:
+        if (found := self.find(unit)) is not None:
             return found
         names = [found.name for found in self.units.values()]
         raise Unjudged(f"{', '.join(self.files)}: no unit {unit!r}; {suggestion(unit, names)}")

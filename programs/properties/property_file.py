@@ -72,7 +72,7 @@ class Questions:
 
     def times(self, source: Source, unit: Unit) -> tuple[int, int | None]:
         """The range of scan times: that of the file, else the interval of the program's task."""
-        interval = None if "scan_time_ms" in self.tables else source.interval_of(unit)
+        interval = None if "scan_time_ms" in self.tables else interval_of(source, unit)
         return self.scan_time if interval is None else (interval, interval)
 
     def place(self, row: Mapping[str, Any]) -> Place:
@@ -81,6 +81,13 @@ class Questions:
         lines = enumerate(self.text.splitlines(), 1)
         found = [number for number, line in lines if wanted.match(line)]
         return Place(self.file, found[0] if found else 1)
+
+
+def interval_of(source: Source, unit: Unit) -> int | None:
+    """The ms between two scans of a program, if the source says it once."""
+    tasks = [task for task in source.tasks if unit.name.upper() in map(str.upper, task.programs)]
+    found = {task.interval_ms for task in tasks}
+    return next(iter(found)) if len(found) == 1 else None
 
 
 @dataclass(frozen=True)

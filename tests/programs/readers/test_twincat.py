@@ -12,6 +12,7 @@ from modeproof.ground.errors import Unjudged
 from programs.language.shared_memory import completed
 from programs.language.subset import check
 from programs.language.tree import Source
+from programs.properties.property_file import interval_of
 from programs.readers.sources import read_sources
 from tests.programs.fuzz import difference_of_translator
 
@@ -37,7 +38,7 @@ FILES = {
     "GVL.TcGVL": tc(
         "GVL",
         "GVL",
-        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Lamp AT %Q* : BOOL; Steps : INT;\n"
+        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Steps: INT; Lamp AT %Q*: BOOL;\n"
         "END_VAR\n"
         "VAR_GLOBAL CONSTANT\n  LAST : INT := 3;\nEND_VAR",
     ),
@@ -91,7 +92,7 @@ def read(path: Path) -> Source:
 def test_a_project_is_read_as_it_is_built(name: str, folder: Path) -> None:
     source = read(folder / name)
     assert {*source.units} == {"FB_LAMP", "MAIN"} and not source.refused
-    assert source.tasks[0].interval_ms == 10 and source.interval_of(source.chosen(None)) == 10
+    assert source.tasks[0].interval_ms == 10 and interval_of(source, source.chosen(None)) == 10
     assert completed(source, source.chosen(None)).variables["GUARD"].section == "input"
 
 
@@ -136,8 +137,8 @@ REFUSED = {
     ),
     "a pragma": (
         "GVL.TcGVL",
-        "{attribute 'qualified_only'}",
-        "{attribute 'call_after_init'}",
+        "VAR_GLOBAL\n  Guard",
+        "{attribute 'call_after_init'}\nVAR_GLOBAL\n  Guard",
         "call_after_init",
     ),
     "inheritance": ("FB_Lamp.TcPOU", "FB_Lamp\nVAR", "FB_Lamp EXTENDS FB_Base\nVAR", "FB_Lamp.TcPOU"),
