@@ -12,19 +12,17 @@ from modeproof.registers.profiles import LETTER, PROFILES, profiles_of
 
 KIND = "demands"
 SOLVERS = ("z3", "cvc5")
-OPEN = ("fplc", "hmi")
-"""Targets whose demands z3 does not all prove of the reference in the time of a lane (docs/limits.md)."""
 
 
 def subjects(place: Path, document: str) -> Iterator[tuple[str, str]]:
     """Each published target of a document of which something is demanded, with each of its profiles; without
-    those that are `OPEN`.
+    those of which the register says why not.
     """
     if not (place / "spec" / document / f"{FILE}.toml").is_file():
         return
     demands = load_demand_rows(place, document)
     for target, device in load_interface(place, document).devices.items():
-        if device.published and demands.of.get(target) and target not in OPEN:
+        if device.published and demands.of.get(target) and target not in demands.unproved:
             for profile in PROFILES if profiles_of(device) else (LETTER,):
                 yield target, profile
 

@@ -2,6 +2,7 @@
 
     [device.lamp]                       by device
     constant = { press = ["TOY-2"] }    inputs that the document calls constant, with the clauses that do
+    unproved = "why"                    they are not proved of the reference in a lane
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
     [device.lamp.rules]                 a value, { recent = .. }, or { memory = .., starts = .. }
@@ -32,7 +33,7 @@ from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device, Signal
 
 FILE = "demands.toml"
-_ROW = {"tables", "constants", "constant", "rules", "demand"}
+_ROW = {"tables", "constants", "constant", "unproved", "rules", "demand"}
 _DEMAND = {"says", "clauses", "kind", "when", "holds", "comes"}
 
 
