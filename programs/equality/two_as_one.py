@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType, SimpleNamespace
 from typing import Any, cast
@@ -18,6 +18,7 @@ from programs.equality.binding import Binding
 from programs.equality.product import Product
 from programs.equality.replay import Difference, Replayed, Run, steps
 from programs.equality.two_programs import CLOCK, NEW, OLD, Pair
+from programs.invariants.relations import Vocabulary
 from programs.language.tree import Scalar, Source, Unit
 from programs.semantics.interpreter import Machine
 from programs.semantics.interpreter_expressions import Overflow
@@ -190,9 +191,23 @@ class Beside:
         return kind.high if isinstance(kind, Scalar) else None
 
 
+class ProductOfTwo(Product):
+    """As `Product`, with tables from the numbers and words of both programs."""
+
+    @cached_property
+    def vocabulary(self) -> Vocabulary:
+        """What relations may speak of."""
+        keys = {
+            f"p:{path}"
+            for path, slot in self.slots.items()
+            if slot.type.kind in ("int", "enum", "bits") and not path.endswith(".age")
+        }
+        return replace(super().vocabulary, keys=frozenset(keys & self.symbols.keys()))
+
+
 def product_of(pair: Pair, wrap: bool) -> Product:
     """Both programs as one, beside what gives TRUE."""
-    return Product(cast(Binding, Beside(pair)), wrap)
+    return ProductOfTwo(cast(Binding, Beside(pair)), wrap)
 
 
 def random_runs(product: Product, seed: int = 1) -> Difference | Replayed:
