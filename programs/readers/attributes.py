@@ -6,6 +6,7 @@ Dropped is what cannot change it: how a tool shows a name, what its checks repor
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
 RETAINED: Final = frozenset({"tcretain", "tcpersistent", "tcinitsymbol"})
@@ -17,12 +18,16 @@ _DROPPED: Final = frozenset({
 })  # fmt: skip
 _DROPPED_WITH: Final = {"symbol": ("none", "read"), "monitoring": ("variable",), "opc.ua.da": ("0",)}
 """By their values: others let a client write, or carry out code while somebody watches."""
-_OPEN: Final = ("symbol", "opc")
+_OPEN: Final = ("symbol", "opc", "pytmc")
+_WAYS: Final = re.compile(r"\bio\s*:\s*(\w+)")
 
 
 def dropped(name: str, value: str) -> bool:
     """Whether an attribute changes nothing."""
     key = name.strip().lower()
+    if key == "pytmc":  # what EPICS shows of it; without `io: i` it writes as well
+        ways = _WAYS.findall(value.lower())
+        return bool(ways) and set(ways) <= {"i", "ro"}
     return key in _DROPPED or value.strip().lower() in _DROPPED_WITH.get(key, ())
 
 
