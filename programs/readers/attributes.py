@@ -12,7 +12,7 @@ from typing import Final
 RETAINED: Final = frozenset({"tcretain", "tcpersistent", "tcinitsymbol"})
 """The variable behind it keeps its value, or gets one from outside, before the first scan."""
 _DROPPED: Final = frozenset({
-    "analysis", "displaymode", "hide", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
+    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
     "qualified_only", "reflection", "strict", "to_string",
     "tcdisplayscale", "tchidesubitems", "tcignorepersistent", "tclinkto", "tclinktooso", "tcnosymbol",
 })  # fmt: skip
