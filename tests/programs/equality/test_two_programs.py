@@ -122,7 +122,7 @@ def test_an_output_is_left_out_only_if_that_is_said(tmp_path: Path) -> None:
     assert status == 0 and record["left_out"] == ["lamp (old)"]
 
 
-def test_a_block_of_the_source_is_not_that_of_the_document(tmp_path: Path) -> None:
+def test_a_block_of_the_source_is_not_the_documents(tmp_path: Path) -> None:
     calls = "PROGRAM P VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR VAR e : SF_EDM; END_VAR\n"
     calls += "e(Activate := a, S_OutControl := TRUE, S_EDM1 := TRUE, S_EDM2 := TRUE, S_StartReset := TRUE);\n"
     calls += "q := e.S_EDM_Out;\nEND_PROGRAM\n"
