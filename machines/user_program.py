@@ -23,6 +23,7 @@ from machines.verdicts import Machine
 from machines.wiring import STANDARD, Wiring
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.language.calls import inner_bodies
+from programs.language.shared_memory import completed
 from programs.language.tree import (
     BOOL,
     Assign,
@@ -101,6 +102,7 @@ class ProgramMachine(Machine):
         found = self.source.main() if self.unit is None else self.source.find(self.unit)
         if found is None:
             raise Unjudged(f"{', '.join(map(str, self.sources))}: no unit {self.unit!r}")
+        found = completed(self.source, found)
         _check(found, self.wiring, self.source.units)
         return found
 

@@ -70,7 +70,10 @@ class Bundle:
             with zipfile.ZipFile(self.place) as archive:
                 known = json.loads(archive.read(f"{FOLDER}/{DEMANDS}"))
             rows = [(suite, known.get(suite.target, {})) for suite in suites]
-            return [suite.demanding(row.get("demands"), row.get("texts")) for suite, row in rows]
+            return [
+                suite.demanding(row.get("demands"), row.get("texts"), row.get("readings"))
+                for suite, row in rows
+            ]
         except (OSError, KeyError, ValueError, AttributeError, zipfile.BadZipFile) as error:
             raise Unjudged(f"{self.place.name}: no demands inside: {error}") from None
 

@@ -233,6 +233,8 @@ def difference_lines(found: Difference, suite: Suite | None = None, way: bool = 
         )
     elif not found.broken and found.clauses:
         lines.append("differs from the reference")
+    if found.reading:
+        lines.append(f"reading: {found.reading}")
     if suite is not None:
         for id in (*found.clauses, *found.findings):
             if words := suite.text(id):
@@ -345,6 +347,7 @@ def _record(found: Difference) -> dict[str, Any]:
         "expected": dict(found.expected),
         "got": dict(found.got),
         "time": found.time,
+        "reading": found.reading,
         "shortest": _scans(found.shortest),
         "shortest_scans_of_case": found.part,
         "shortest_confirmed": found.confirmed,

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from modeproof.kit.adapter import Program
+from modeproof.kit.readings import find_readings
 from modeproof.kit.relation import Options
 from modeproof.kit.suite_judge import run_suite
 from modeproof.kit.vectors import DEMANDS, MONITOR, Suite
@@ -35,5 +36,7 @@ def judge_both(
         if first.interrupted:
             return first
     verdict = run_suite(suite, start, plan=plan, **reference)
+    if not verdict.interrupted:
+        find_readings(suite, start, plan, verdict)
     verdict.page, verdict.same = first, same
     return verdict

@@ -43,6 +43,8 @@ FILE_NAME = "{suite}.jsonl.gz"
 """How the file of a suite is called in the folder of its target."""
 DEMANDS = "demands"
 """In the header of an open suite: what the document demands, where that is known. It is in no file."""
+READINGS = "readings"
+"""Beside it: for each parameter that chooses between readings the finding that says why."""
 WIRING = "wiring"
 """In the header of vectors of a whole machine: how its blocks are wired, from which the reference is made."""
 LONGEST_LINE = 1 << 26
@@ -189,9 +191,18 @@ class Suite:
             return None
         return read_demands(table, self.inputs, self.outputs, self.parameters, f"{self.target}: demands")
 
-    def demanding(self, table: Mapping[str, Any] | None, texts: Mapping[str, str] | None = None) -> Suite:
-        """The suite with what the document demands; it is no part of a vector file. `texts` are added."""
+    def demanding(
+        self,
+        table: Mapping[str, Any] | None,
+        texts: Mapping[str, str] | None = None,
+        readings: Mapping[str, str] | None = None,
+    ) -> Suite:
+        """The suite with what the document demands; it is no part of a vector file. `texts` are added.
+
+        readings: for each parameter that chooses between readings its finding.
+        """
         header = {**self.header, "texts": {**self.header.get("texts", {}), **(texts or {})}}
+        header[READINGS] = dict(readings or {})
         return replace(self, header=header if table is None else {**header, DEMANDS: table})
 
     @property

@@ -48,7 +48,8 @@ class Difference:
 
     `part` names the scans of `shortest`, the shortest part that was found to show a difference; `confirmed`
     says whether it did so when it was run again, and is None where it was not run again.
-    `time` says how much too late or too early the last scan of `shortest` is, where that explains it.
+    `time` says how much too late or too early the last scan of `shortest` is, where that explains it;
+    `reading` which reading of a finding the program has there.
     """
 
     case: Case
@@ -65,6 +66,7 @@ class Difference:
     broken: str = ""
     says: str = ""
     time: str = ""
+    reading: str = ""
 
     @property
     def cause(self) -> tuple[str, ...]:

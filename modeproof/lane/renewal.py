@@ -30,7 +30,7 @@ from modeproof.registers.replay import has_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.vector_files import ROOM, unfit
-from modeproof.simulate.recorded import record, unrecorded
+from modeproof.simulate.recorded import known, record, unrecorded
 from modeproof.suites.build import make_graphs, published, ready_suite, suite_file
 from modeproof.suites.builtin_comparison import compare_run, difference_text
 from modeproof.suites.kinds import SUITES
@@ -148,12 +148,16 @@ def _accept(work: Renewal, stale: Stale) -> None:
 
 def _runs_to_check(work: Renewal, stale: Stale) -> Iterator[Run]:
     """If vectors or stories are stale, the specification has changed: every run of lane full and every small
-    one, and those of the stories. If only pinned texts have, the runs that check one of them.
+    one, and those of the stories. If only pinned texts have, the runs that check one of them. A story of a new
+    run has changed nothing.
     """
+    told = known(work.document)
     checked = {pin.removeprefix("checked.") for pin in stale.pins}
     for run in load_runs(work.tree, work.name):
         full = "full" in run.lanes or (run.generated or 0) <= SMALL
-        changed = stale.targets or stale.stories or checked & {*run.properties, *_names(work.tree, run)}
+        changed = (
+            stale.targets or told & {*stale.stories} or checked & {*run.properties, *_names(work.tree, run)}
+        )
         if run.id in stale.stories or (full and changed):
             yield run
 

@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Annotated
 
 from msgspec import Meta, field
+from msgspec.structs import replace
 
+from modeproof.registers.demands import MODULE
 from modeproof.registers.load import read_register
 from modeproof.registers.typed import (
     Entry,
@@ -24,6 +26,11 @@ from modeproof.registers.typed import (
     tables,
     typed,
 )
+
+OPEN, OF_DEMANDS = "Open", "DemandsNext"
+"""The end of the name of a module in which a device is alone, and the step relation of the module in which
+its demands are judged: that one is read as the other, where nothing else is said.
+"""
 
 
 class Words(Entry, frozen=True, kw_only=True):
@@ -70,12 +77,14 @@ class Top(Entry, frozen=True, kw_only=True):
 
 class Traces(Entry, frozen=True, kw_only=True):
     """The whole register. `step` is the variable with the step's name, written where the constant `recorded`
-    is true, and `with_step` are the variables written with it.
+    is true, and `with_step` are the variables written with it. `no_step` is its value after a scan in which
+    the device of a model takes no step.
     """
 
     step: Name = "step"
     recorded: Name = "RECORD_STEPS"
     with_step: Names = ()
+    no_step: Name = "NoStep"
     nobody: dict[str, str] = field(default_factory=dict)
     words: tuple[Words, ...] = field(default=(), name="word")
     vectors: tuple[Vector, ...] = field(default=(), name="vector")
@@ -114,4 +123,10 @@ def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
     data = read_register(root, name, "replay")
     data.pop("target", None)
-    return typed(Traces, data, f"spec/{name}/replay.toml")
+    traces = typed(Traces, data, f"spec/{name}/replay.toml")
+    of_demands = {
+        f"{module.removesuffix(OPEN)}{MODULE}": replace(top, next=OF_DEMANDS)
+        for module, top in traces.tops.items()
+        if module.endswith(OPEN)
+    }
+    return replace(traces, tops=of_demands | traces.tops)

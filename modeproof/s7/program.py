@@ -13,6 +13,8 @@ the map has for it:
 With real time nothing stops the program between two cycles; so an input counts as seen when @cycle has gone
 on by two, and relation exact is not possible. What is written into the memory of an F-CPU is not what its
 inputs are: see docs/s7.md. What was written is put back at the end, but for @scan, which would start a scan.
+Before each scan, and before anything is put back, @magic is read again. Bits that have no name in the map are
+somebody else's: they are written as they were found, and where one changes within a case, nothing is written.
 """
 
 from __future__ import annotations
@@ -153,6 +155,7 @@ class S7Program:
         self._set = blocks_of(places.parameters.values(), 0)
         self._touched = False
         self._before: dict[Block, bytes] = {}
+        self._others: dict[Block, bytes] = {}
         self._client = snap7.Client()
         self._connect(host, port)
         try:
@@ -180,7 +183,7 @@ class S7Program:
             raise Unjudged(
                 f"S7 server {self._where}: {MAGIC} {self._places.controls[MAGIC].address} holds "
                 f"16#{found:08X} and not 16#{MAGIC_NUMBER:08X}, so this PLC is no test rig; "
-                "nothing was written"
+                f"nothing {'more is' if self._touched else 'was'} written"
             )
 
     # ------------------------------------------------------------------------------------------ program
@@ -209,12 +212,14 @@ class S7Program:
         self._write(self._set, self._numbers(values))
         self._write_control(RESET, 1)
         self._wait(lambda: not self._read_control(RESET), f"{RESET} was not cleared")
+        self._others.clear()  # the program's power-up may have changed them
         if self.virtual:
             self._number = self._read_control(DONE)
         self._last_scan = time.monotonic()
 
     def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
-        """As `Program.scan`."""
+        """As `Program.scan`; nothing is written into a PLC that is no test rig any more."""
+        self._recognize()
         numbers = self._numbers(inputs)
         if self.virtual:
             numbers[TIME] = min(dt_ms, LONGEST_MS)
@@ -235,11 +240,14 @@ class S7Program:
         return self._outputs()
 
     def close(self) -> None:
-        """Put back what was written, and hang up; may be called twice."""
+        """Put back what was written, if the PLC is still a test rig, and hang up; may be called twice."""
         before, self._before = (self._before if self._touched else {}), {}
         try:
+            if before:
+                self._recognize()
             for block, data in before.items():
-                self._put(block, data)
+                self._others.pop(block, None)  # whoever wrote the other bits: they stay as they are now
+                self._put(block, self._with_others(block, data))
         except Unjudged as error:
             print(f"modeproof.s7: what was written is not put back: {error}", file=sys.stderr)
         self._hang_up()
@@ -261,10 +269,10 @@ class S7Program:
         return {name: encode(self._signals[name], places[name], value) for name, value in values.items()}
 
     def _write(self, blocks: Sequence[Block], numbers: Mapping[str, int]) -> None:
-        """Whole blocks, one telegram each; bits of a byte that have no name stay as they were found."""
-        places = {**self._places.inputs, **self._places.parameters, **self._places.controls}
+        """Whole blocks, one telegram each; bits that have no name must be as they were found, and stay so."""
+        places = self._places_written()
         for block in blocks:
-            data = bytearray(self._before.get(block, bytes(block.size)))
+            data = self._with_others(block, self._before.get(block, bytes(block.size)))
             for name, number in numbers.items():
                 place = places[name]
                 if not block.holds(place):
@@ -277,6 +285,38 @@ class S7Program:
                     data[at : at + size] = (number % (1 << 8 * size)).to_bytes(size, "big")
             self._touched = True
             self._put(block, data)
+
+    def _places_written(self) -> dict[str, Place]:
+        return {**self._places.inputs, **self._places.parameters, **self._places.controls}
+
+    def _named(self, block: Block) -> bytes:
+        """The bits of a block that the map names, as a mask of each byte."""
+        mask = bytearray(block.size)
+        for place in self._places_written().values():
+            if not block.holds(place):
+                continue
+            for byte in range(place.byte, place.last + 1):
+                mask[byte - block.first] |= 1 << place.bit if place.bit >= 0 else 0xFF
+        return bytes(mask)
+
+    def _with_others(self, block: Block, own: bytes) -> bytearray:
+        """These bytes, with the bits that the map does not name as they are now.
+
+        Raises Unjudged where such a bit is not as it was found: it might change again before we write.
+        """
+        named = self._named(block)
+        if min(named) == 0xFF:
+            return bytearray(own)
+        now = self._read(block)
+        found = self._others.setdefault(block, now)
+        for at, (was, bits, ours) in enumerate(zip(found, now, named, strict=True)):
+            if (was ^ bits) & ~ours:
+                byte = Place(block.area, block.block, block.first + at, -1, "BYTE").address
+                raise Unjudged(
+                    f"S7 server {self._where}: a bit of {byte} that the map does not name has changed, so "
+                    "others write there; nothing more is written: give what the map names its own byte"
+                )
+        return bytearray(mine & ours | bits & ~ours for mine, bits, ours in zip(own, now, named, strict=True))
 
     def _put(self, block: Block, data: bytes | bytearray) -> None:
         area = self._areas[block.area]

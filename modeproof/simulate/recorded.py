@@ -58,6 +58,11 @@ def unrecorded(document: Document) -> list[str]:
     return [run.id for run in wanted if run.id not in old or not _is_fresh(document, run, old[run.id])]
 
 
+def known(document: Document) -> frozenset[str]:
+    """The runs that have a record, of this specification or of another one."""
+    return frozenset(_kept(document))
+
+
 def _is_fresh(document: Document, run: Run, row: Mapping[str, Any]) -> bool:
     same = all(_hash(document.root, file) == known for file, known in row["modules"].items())
     return same and run.trace_length in (None, len(row["rows"]))

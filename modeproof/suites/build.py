@@ -17,6 +17,7 @@ from modeproof.ground.progress import Progress
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
 from modeproof.registers.load import load_document, load_interface
+from modeproof.registers.profiles import rows_of
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.registers.vector_files import made_from, step_citations
@@ -153,6 +154,14 @@ def document_texts(place: Path, document: str) -> dict[str, str]:
         return {}
     texts = {clause.id: clause.text for clause in registers.clauses}
     return texts | {finding.id: f"{finding.title}: {finding.decision}" for finding in registers.findings}
+
+
+def document_readings(place: Path, document: str) -> dict[str, str]:
+    """For each parameter that chooses between readings its finding; nothing without registers."""
+    try:
+        return {signal.name: finding.id for signal, finding in rows_of(load_document(place, document))}
+    except Unjudged:
+        return {}
 
 
 def _made_with(place: Path, document: str, target: str, graphs: Sequence[Path]) -> str:

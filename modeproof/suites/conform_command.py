@@ -28,7 +28,15 @@ from modeproof.output.outcome import Outcome
 from modeproof.registers.rows import Device
 from modeproof.registers.stale import stale
 from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
-from modeproof.suites.build import current_suite, document_texts, find_target, make_graphs, ready_suite, say
+from modeproof.suites.build import (
+    current_suite,
+    document_readings,
+    document_texts,
+    find_target,
+    make_graphs,
+    ready_suite,
+    say,
+)
 from modeproof.suites.builtin_comparison import run_builtin
 from modeproof.suites.conform_outcome import about, outcome_of
 from modeproof.suites.demands import load_demands
@@ -82,7 +90,8 @@ def _program(args: argparse.Namespace) -> tuple[list[Suite], list[Verdict]]:
         suites = _suites(place, document, device, args)
     table = load_demands(place, document, device)
     texts = document_texts(place, document) if table is not None else {}
-    suites = [suite.demanding(table, texts) for suite in kit_command.in_profile(args, suites)]
+    readings = document_readings(place, document)
+    suites = [suite.demanding(table, texts, readings) for suite in kit_command.in_profile(args, suites)]
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
         args.adapter = " ".join(map(again.quoted, [sys.executable, str(place / OWN), args.target]))

@@ -143,6 +143,7 @@ def _problem(suite: Suite, found: Difference, count: int, own: Sequence[File], r
         )
     more = f"; {count - 1:,} more cases differ in the same way" if count > 1 else ""
     timed = f"; {found.time}" if found.time else ""
+    timed += f"; reading: {found.reading}" if found.reading else ""
     return Problem(
         rule=about,
         others=cited,

@@ -24,7 +24,7 @@ from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import of_machine, published_files, suite_name
-from modeproof.suites.build import document_texts, suite_file
+from modeproof.suites.build import document_readings, document_texts, suite_file
 from modeproof.suites.demands import load_demands
 from modeproof.suites.kinds import SUITES
 
@@ -86,7 +86,8 @@ def _demanded(place: Path, document: str, target: str) -> dict[str, Any]:
     if table is None:
         return {}
     texts, cited = document_texts(place, document), {id for row in table["demands"] for id in row["clauses"]}
-    return {"demands": table, "texts": {id: texts[id] for id in sorted(cited & texts.keys())}}
+    said = {id: texts[id] for id in sorted(cited & texts.keys())}
+    return {"demands": table, "texts": said, "readings": document_readings(place, document)}
 
 
 def _inside(file: Path, target: str, name: str, members: dict[str, bytes]) -> dict[str, Any]:

@@ -161,6 +161,8 @@ class Plan:
         for device in self.interface.devices.values():
             if name and name in device.steps:
                 return device.id
+        if name == self.traces.no_step and len(self.replayed) == 1:
+            return self.replayed[0].id
         if name in self.traces.nobody:
             return ""
         changed = {key for key in after if before.get(key) != after[key]}

@@ -13,7 +13,7 @@ import csv
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal, DecimalException
 from pathlib import Path
 from typing import Any
 
@@ -184,7 +184,7 @@ class _Table:
         try:
             value = Decimal(text.replace(",", ".")) * _TIMES.get(name, Decimal(1))
             whole = int(value) if abs(value) < LONGEST_TIME else None
-        except (InvalidOperation, ValueError, OverflowError):
+        except (DecimalException, ValueError, OverflowError):
             whole = None
         if whole is None:
             raise self.builder.fail(number, f"{text!r} is no time", name)

@@ -133,12 +133,8 @@ class Kept(Stored):
             raise self.refuse("it has not one file of properties")
         asked = read_questions(questions[0])
         source = read_sources(sources)
-        cell = Cell.of(
-            source,
-            source.chosen(str(self.record.get("unit"))),
-            asked.scan_time,
-            self.record.get("wrap") is True,
-        )
+        unit = source.chosen(str(self.record.get("unit")))
+        cell = Cell.of(source, unit, asked.times(source, unit), self.record.get("wrap") is True)
         found = Judgement(cell, asked.asked(cell), 0.0, lambda text: None)
         self.claims(claim(found, Path(next(iter(self.table("properties"))))))
         return found

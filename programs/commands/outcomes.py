@@ -86,7 +86,7 @@ def demand_of_equality(found: Verdict, required: bool) -> Demand:
     rule = Rule(id=target, kind="target", sentence=sentence, source=_paper(binding))
     problems = []
     if found.difference is not None:
-        problems.append(_difference(found.difference, binding, rule, found.product.wrap))
+        problems.append(_difference(found, found.difference, binding, rule))
     elif found.missing:
         problems.append(Problem(rule=rule, message=found.missing, spot=spot_of(binding.unit.place)))
     strength = "induction over pairs of states: every input, parameter and time, for ever"
@@ -105,8 +105,9 @@ def _paper(binding: Binding) -> str:
     return binding.reference.document
 
 
-def _difference(found: Difference, binding: Binding, about: Rule, wrap: bool) -> Problem:
+def _difference(verdict: Verdict, found: Difference, binding: Binding, about: Rule) -> Problem:
     """The scans, the line that set the wrong output, and the clauses that speak of that output."""
+    wrap = verdict.product.wrap
     reference = binding.reference
     outputs = reference.signals("outputs")
     wrong = found.differing
@@ -133,6 +134,7 @@ def _difference(found: Difference, binding: Binding, about: Rule, wrap: bool) ->
             f"{name} is {_word(last.given[name])}, expected {_word(last.expected[name])}" for name in wrong
         ]
         message = f"after {_scans(len(scans))} from power-up {'; '.join(texts)}"
+    message += f"; reading: {verdict.reading}" if verdict.reading else ""
     return Problem(
         rule=about,
         others=rules,

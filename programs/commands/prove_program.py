@@ -9,6 +9,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,7 @@ from programs.demands.observer import LATENCY
 from programs.equality.binding import read_assumed, read_binding
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
+from programs.equality.readings import reading_of
 from programs.equality.replay import Difference, Run, published
 from programs.equality.verdict import Verdict, judge
 from programs.language.tool_differences import assumed
@@ -120,6 +122,9 @@ def _same(
         if not isinstance(first, Difference):
             return None, [], {}
         found = Verdict("REFUTED", product, difference=first)
+    if found.difference is not None:
+        tell("looking for the reading that the program has")
+        found = replace(found, reading=reading_of(product, found.difference, vectors))
     lines: list[str] = []
     ways: Mapping[Pair, Run] = {} if found.replayed is None else found.replayed.ways(found.product)
     if args.same and args.certificate is not None and found.word == "PROVED":
@@ -184,6 +189,7 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
             yield f"REFUTED: {name} is not equal to {target}"
             assert found.difference is not None
             yield from _difference(found.difference)
+            yield from _reading(found)
         case "UNKNOWN":
             yield f"UNKNOWN: {name} and {target}: no proof and no difference"
             yield f"  missing     {found.missing}"
@@ -211,9 +217,15 @@ def brief_of(found: Verdict) -> Iterator[str]:
             scans = len(found.difference.scans)
             where = f"in scan {scans} of the {found.difference.found_by}"
             yield f"Not the same as the reference{chosen}: it differs {where}: {_last(found.difference)}"
+            yield from _reading(found)
         case "UNKNOWN":
             yield f"Not known to be the same as the reference{chosen}: {found.missing}"
     yield f"  compared    {', '.join(binding.compared)}; --same asks for this too"
+
+
+def _reading(found: Verdict) -> Iterator[str]:
+    if found.reading:
+        yield f"  reading     {found.reading}"
 
 
 def _last(found: Difference) -> str:
@@ -365,5 +377,6 @@ def record_of(found: Verdict) -> dict[str, Any]:
             "program": difference.given,
             "differing": difference.differing,
             "stopped": difference.stopped,
+            "reading": found.reading,
         }
     return record

@@ -20,7 +20,7 @@ from programs.certificates.certificate_folder import digest, tools
 from programs.commands.outcomes import outcome_of_properties
 from programs.commands.results import write_record
 from programs.language.tool_differences import assumed
-from programs.properties.property_file import read_questions
+from programs.properties.property_file import interval_of, read_questions
 from programs.properties.property_verdicts import Found, Judgement
 from programs.properties.transition_system import Cell
 from programs.readers.sources import read_sources
@@ -76,7 +76,8 @@ def judged(
     """The program with its properties, and the verdict on each. Raises Unjudged with file, line and cause."""
     questions = read_questions(properties)
     source = read_sources(list(files))
-    cell = Cell.of(source, source.chosen(unit), questions.scan_time, wrap)
+    chosen = source.chosen(unit)
+    cell = Cell.of(source, chosen, questions.times(source, chosen), wrap)
     judgement = Judgement(cell, questions.asked(cell), seconds, tell)
     return judgement, judgement.all()
 
@@ -163,6 +164,8 @@ def _not_shown(cell: Cell) -> Iterator[str]:
 
 def _times(cell: Cell) -> str:
     low, high = cell.scan_time
+    if low == high and low == interval_of(cell.source, cell.unit):
+        return f"{low:,} ms, the interval of its task"
     return f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
 
 

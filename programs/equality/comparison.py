@@ -9,6 +9,7 @@ from typing import Any
 from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs.equality.binding import Binding
 from programs.equality.product import Product
+from programs.language.shared_memory import completed
 from programs.language.subset import check
 from programs.language.tool_differences import assumed
 from programs.readers.sources import read_sources
@@ -36,7 +37,7 @@ def make(
         names = {name: own for name, own in given.get("names", {}).items() if name not in ours}
         binding = given | {"left_out": tuple(dict.fromkeys(left)), "names": names}
     source = read_sources(files)
-    chosen = source.chosen(unit)
+    chosen = completed(source, source.chosen(unit))
     check(source, chosen)
     return Product(Binding(of, source, chosen, **(binding or {})), wrap, split)
 

@@ -191,28 +191,38 @@ def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replay
 
     The first difference, else what was replayed. Raises Unjudged for a vector file that cannot be read.
     """
-    reference, replayed = binding.reference, Replayed()
+    replayed = Replayed()
+    for where, run in published_runs(binding, folder):
+        replayed.cases, replayed.scans = replayed.cases + 1, replayed.scans + len(run.scans)
+        for step in steps(binding, wrap, run, f"published vector {where}"):
+            if isinstance(step, Difference):
+                return step
+            replayed.met.append(step)
+    return replayed
+
+
+def published_runs(binding: Binding, folder: Path, every: bool = False) -> Iterator[tuple[str, Run]]:
+    """Published vectors whose parameters the binding allows, at most `MOST_SCANS` scans of them, by their
+    names; every: also others, with the parameters that the binding fixes. Raises Unjudged for a vector file
+    that cannot be read.
+    """
+    fixed = binding.fixed_parameters() if every else {}
+    reference, count = binding.reference, 0
     for name in SUITES:
         path = folder / f"{name}.jsonl.gz"
         if not path.is_file():
             continue
         try:
             for case in open_suite(path).cases():
-                parameters = reference.with_defaults(reference.from_wire("parameters", case.params))
+                given = reference.from_wire("parameters", case.params)
+                parameters = {**reference.with_defaults(given), **fixed}
                 if case.requests or not case.reset or not binding.allows(parameters):
                     continue
                 longest = max(scan.dt_ms for scan in case.scans)
-                if replayed.scans + len(case.scans) > MOST_SCANS:
+                if count + len(case.scans) > MOST_SCANS or longest > (binding.longest_scan or longest):
                     continue
-                if longest > (binding.longest_scan or longest):
-                    continue
+                count += len(case.scans)
                 taken = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
-                replayed.cases, replayed.scans = replayed.cases + 1, replayed.scans + len(taken)
-                where = f"published vector {case.id} of {name}"
-                for step in steps(binding, wrap, Run(parameters, taken), where):
-                    if isinstance(step, Difference):
-                        return step
-                    replayed.met.append(step)
+                yield f"{case.id} of {name}", Run(parameters, taken)
         except KitUnjudged as error:
             raise Unjudged(str(error)) from None
-    return replayed

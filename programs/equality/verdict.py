@@ -28,13 +28,16 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came out. `difference` belongs to REFUTED, `missing` to UNKNOWN."""
+    """What came out. `difference` belongs to REFUTED, with the `reading` that explains it, `missing` to
+    UNKNOWN.
+    """
 
     word: Literal["PROVED", "REFUTED", "UNKNOWN"]
     product: Product
     replayed: Replayed | None = None
     difference: Difference | None = None
     missing: str = ""
+    reading: str = ""
 
 
 def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: bool = True) -> Verdict:
@@ -44,9 +47,16 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: b
     else scans are only left out. Raises Unjudged for a vector file that cannot be read.
     """
     first = published(product.binding, product.wrap, vectors)
+    return judge_after(product, first, seconds, tell, fewest)
+
+
+def judge_after(
+    product: Product, first: Difference | Replayed, seconds: float, tell: Tell, fewest: bool = True
+) -> Verdict:
+    """The same, after scans that were run on both: a difference, or what was met."""
     if isinstance(first, Difference):
         return Verdict("REFUTED", product, difference=_fewest(product, first, seconds, tell, fewest))
-    tell(f"{first.cases} published vectors replayed, {first.scans:,} scans")
+    tell(f"{first.cases} runs replayed, {first.scans:,} scans")
     try:
         doubts = _doubts(product, first, seconds, tell)
         if doubts and (found := _refuted(product, doubts, first, FIRST_S, tell)):

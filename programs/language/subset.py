@@ -56,10 +56,13 @@ def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
     if unit.kind == "function":
         raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
+    if unit.others_call:
+        raise unit.place.refuse(
+            f"{unit.name} has methods or properties ({', '.join(unit.others_call)}), which others call: "
+            "take the program that has it"
+        )
     for name, variable in unit.of("in_out").items():
         raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
-    if not unit.of("output"):
-        raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
     check_below(source, unit)
 
 
@@ -104,7 +107,7 @@ def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str])
                 raise variable.place.refuse(f"{variable.name}: {block} is a PROGRAM, which has no instances")
             if instance not in below:
                 below.append(instance)
-        if any(blocks_in(variable.type)) and variable.section != "var":
+        if any(blocks_in(variable.type)) and variable.section not in ("var", "external"):
             raise variable.place.refuse(f"{variable.name}: an instance of a block belongs in VAR here")
     for inner in below:
         yield from _reached(source, inner, (*above, unit.name), seen)

@@ -49,8 +49,8 @@ class Scalar:
 
     def member(self, name: str) -> int | None:
         """The place of a member of an enumeration; None: it has no such member."""
-        names = [known.upper() for known in self.names]
-        return names.index(name.upper()) if name.upper() in names else None
+        names = {known.upper(): number for number, known in enumerate(self.names)}
+        return names.get(name.upper())
 
     def starting(self, value: int) -> Scalar:
         """This type with another first value."""
@@ -321,7 +321,7 @@ Body = tuple[Statement, ...]
 class Variable:
     """One declared variable.
 
-    section: input, output, in_out, var, temp or constant.
+    section: input, output, in_out, var, temp or constant; external: the memory is one that all units share.
     """
 
     name: str
@@ -333,6 +333,20 @@ class Variable:
     place: Place
     retained: bool = False
     """It may hold any value at power-up, such as that from before."""
+    address: str = ""
+    """Where it lies, such as %MW4; empty: at no address of its own."""
+    group: str = ""
+    """Of a global: the list that declares it, by which it may be called."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """When programs run: the ms between two scans (None: it is not said), and the programs in order."""
+
+    name: str
+    interval_ms: int | None
+    programs: tuple[str, ...]
+    place: Place
 
 
 class Device(Protocol):
@@ -370,12 +384,18 @@ class Unit:
     """VAR_TEMP, and all of a FUNCTION, has its first value when a call begins; else none (`undefined`)."""
     notes: tuple[str, ...] = ()
     """What the source leaves open and was taken as said here, one sentence each."""
+    others_call: tuple[str, ...] = ()
+    """Its methods and properties, which are not read: they do nothing where nobody names them."""
+    whole: bool = False
+    """Whether the globals are its own variables: it is the one that is judged."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
-        return {
-            variable.name: variable for variable in self.variables.values() if variable.section in sections
-        }
+        return {one.name: one for one in self.variables.values() if one.section in sections}
+
+    def of_keys(self, section: str) -> dict[str, Variable]:
+        """The variables of a section, by their names in upper case."""
+        return {key: one for key, one in self.variables.items() if one.section == section}
 
 
 @dataclass(frozen=True)
@@ -387,6 +407,9 @@ class Source:
     """The SHA-256 of each file."""
     refused: Mapping[str, Unjudged] = field(default_factory=dict)
     """Units and types that are there and cannot be read, by their names in upper case."""
+    tasks: tuple[Task, ...] = ()
+    words: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """All words, in upper case, of what is refused, by its name."""
     kept: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
     """What the interpreter has made ready of these units, by their identity."""
 
@@ -397,10 +420,7 @@ class Source:
         return self.units.get(name.upper())
 
     def main(self) -> Unit:
-        """The unit that no other unit has an instance of; of several the one PROGRAM.
-
-        Raises Unjudged: there is none, or several, or one cannot be read, so that it might be meant.
-        """
+        """The unit that no other has an instance of; of several the one PROGRAM. Raises Unjudged."""
         for refusal in self.refused.values():
             raise refusal
         used = {
@@ -415,17 +435,15 @@ class Source:
             return programs[0]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
-            raise Unjudged(
-                f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
-            )
+            files = ", ".join(self.files)
+            raise Unjudged(f"{files}: which program is meant? {names}; choose with --unit NAME")
         return found[0]
 
     def chosen(self, unit: str | None) -> Unit:
         """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
         if unit is None:
             return self.main()
-        found = self.find(unit)
-        if found is not None:
+        if (found := self.find(unit)) is not None:
             return found
         names = [found.name for found in self.units.values()]
         raise Unjudged(f"{', '.join(self.files)}: no unit {unit!r}; {suggestion(unit, names)}")

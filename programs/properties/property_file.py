@@ -24,6 +24,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.language.calls import called_functions
+from programs.language.shared_memory import asked
 from programs.language.subset import check_below
 from programs.language.tree import (
     BOOL,
@@ -35,7 +36,9 @@ from programs.language.tree import (
     Member,
     Name,
     Place,
+    Source,
     Unary,
+    Unit,
 )
 from programs.language.types import Types
 from programs.properties.transition_system import Asked, Cell
@@ -67,12 +70,24 @@ class Questions:
         """The properties over this program. Raises Unjudged with file, line and cause."""
         return [_asked(row, cell, self.place(row)) for row in self.rows]
 
+    def times(self, source: Source, unit: Unit) -> tuple[int, int | None]:
+        """The range of scan times: that of the file, else the interval of the program's task."""
+        interval = None if "scan_time_ms" in self.tables else interval_of(source, unit)
+        return self.scan_time if interval is None else (interval, interval)
+
     def place(self, row: Mapping[str, Any]) -> Place:
         """Where a property is."""
         wanted = re.compile(rf"\s*id\s*=\s*[\"']{re.escape(row['id'])}[\"']")
         lines = enumerate(self.text.splitlines(), 1)
         found = [number for number, line in lines if wanted.match(line)]
         return Place(self.file, found[0] if found else 1)
+
+
+def interval_of(source: Source, unit: Unit) -> int | None:
+    """The ms between two scans of a program, if the source says it once."""
+    tasks = [task for task in source.tasks if unit.name.upper() in map(str.upper, task.programs)]
+    found = {task.interval_ms for task in tasks}
+    return next(iter(found)) if len(found) == 1 else None
 
 
 @dataclass(frozen=True)
@@ -192,7 +207,7 @@ def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
 
 def expression(text: str, cell: Cell, place: Place) -> Expression:
     """An expression of type BOOL over the program's values. Raises Unjudged with file, line and cause."""
-    found = parsed(text, place)
+    found: Expression = asked(parsed(text, place), cell.unit)
     for name in called_functions(found):
         if (unit := cell.source.find(name)) is not None:
             check_below(cell.source, unit)

@@ -15,6 +15,7 @@ from typing import Any
 import z3
 
 from programs.language.memory import leaves
+from programs.language.shared_memory import completed
 from programs.language.subset import check, reached
 from programs.language.tree import BOOL, Expression, Source, Unit
 from programs.language.types import Types
@@ -78,6 +79,7 @@ class Cell:
     ) -> Cell:
         """The cell, looked through. Raises Unjudged with file, line and cause."""
         whole = with_blocks(source)
+        unit = completed(whole, unit)
         check(whole, unit)
         for found in reached(whole, unit, ()):
             check_parameters(whole, found)
@@ -166,7 +168,7 @@ class Cell:
     def holds(self, expression: Expression) -> z3.BoolRef:
         """The expression after a scan. Raises Unjudged: a value in it could leave its type."""
         own = Translator(self.source, self.unit, self.wrap)
-        term = Context(own, self.types, "").value(expression, dict(self.after), TRUE, BOOL)
+        term = Context(own, self.types, "", "").value(expression, dict(self.after), TRUE, BOOL)
         if any(not _follows(owed.formula) for owed in own.obligations):
             raise expression.place.refuse(
                 "a value here could leave its type; compute it in the program and name the variable"
@@ -180,7 +182,7 @@ class Cell:
             return False
         free = {path: z3.FreshConst(term.sort()) for path, term in self.after.items()}
         own = Translator(self.source, self.unit, self.wrap)
-        term = Context(own, self.types, "").value(asked.holds, free, TRUE, BOOL)
+        term = Context(own, self.types, "", "").value(asked.holds, free, TRUE, BOOL)
         return _follows(term)
 
     # ------------------------------------------------------------ with plain values

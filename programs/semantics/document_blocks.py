@@ -8,7 +8,7 @@ left out. A parameter has one value for each instance. A block measures the time
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
 
@@ -219,7 +219,7 @@ def with_blocks(source: Source) -> Source:
                     raise source.refused[key]  # it is there, and the published one is another
                 if key not in units and key not in BLOCKS and (found := block(key)) is not None:
                     units[key] = found.unit()
-    return Source(units, source.files, source.refused)
+    return replace(source, units=units)
 
 
 def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:

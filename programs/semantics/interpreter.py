@@ -158,7 +158,7 @@ class Machine(Evaluator):
     def invoke_function(self, frame: Frame, call: Call, unit: Unit) -> None:
         """A FUNCTION called as a statement: it begins anew, and its outputs go where the call says."""
         inputs, outputs = handed_to_function(unit, call)
-        called = Frame(self.source, unit)
+        called = Frame(self.source, unit, frame.shared)
         for name, expression in inputs:
             kind = unit.variables[name.upper()].type
             assert isinstance(kind, Scalar)

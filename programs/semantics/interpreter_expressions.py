@@ -74,7 +74,7 @@ class Evaluator(ABC):
         """Where a variable is kept: the values among which it is, and its key or number there."""
         match target:
             case Name(name, _):
-                return frame.values, name.upper()
+                return frame.holder(name.upper()), name.upper()
             case Member(of, name, _):
                 above = self.read(frame, of)
                 return (above if isinstance(above, dict) else above.values), name.upper()
@@ -180,7 +180,7 @@ class Evaluator(ABC):
 
     def own(self, frame: Frame, node: Function, unit: Unit) -> Any:
         """The result of a FUNCTION of the program's own: it begins anew in each call."""
-        called = Frame(self.source, unit)
+        called = Frame(self.source, unit, frame.shared)
         for key, expression in own_arguments(node, unit).items():
             kind = unit.variables[key].type
             assert isinstance(kind, Scalar)
@@ -236,9 +236,13 @@ def ready(types: Types, expression: Expression, wanted: Scalar | None) -> Ready:
             return _constant(bool(value) if isinstance(kind, Scalar) and kind.kind == "bool" else int(value))
         case Name(name, _):
             key = name.upper()
+            if key in types.unit.of_keys("external"):
+                return lambda machine, frame: frame.shared[key]
             return lambda machine, frame: frame.values[key]
         case Member(Name(name, _) as instance, pin, _) if isinstance(types.of(instance), Instance):
             of, key = name.upper(), pin.upper()
+            if of in types.unit.of_keys("external"):
+                return lambda machine, frame: frame.shared[of].values[key]
             return lambda machine, frame: frame.values[of].values[key]
         case Unary("NOT", operand, _) if isinstance(kind, Scalar) and kind.kind == "bool":
             inner = ready(types, operand, wanted)

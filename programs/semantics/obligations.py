@@ -31,8 +31,8 @@ class Obliged(ABC):
     obligations: list[Obligation] = field(default_factory=list)
 
     @abstractmethod
-    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
-        """One call of a unit; `here`: the condition under which it happens."""
+    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef, root: str = "") -> None:
+        """One call of a unit; `here`: the condition under which it happens; root: the path above globals."""
 
     def fitted(self, term: Any, given: Type, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
         """A term of the type `given` as a value of the type `kind`."""

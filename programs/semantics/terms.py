@@ -58,7 +58,7 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
     if unit.device is not None:
         yield from unit.device.slots(above.removesuffix("."))
     for key, variable in unit.variables.items():
-        if variable.section in ("temp", "constant"):
+        if variable.section in ("temp", "constant", "external"):
             continue
         given = variable.section == "input" and not above
         for place, kind, initial in elements(variable.type, f"{above}{key}", variable.initial):

@@ -45,7 +45,7 @@ from programs.semantics.terms import (
     singles,
     standard_call,
 )
-from programs.semantics.translator_expressions import Context
+from programs.semantics.translator_expressions import Context, frame
 
 
 @dataclass(frozen=True)
@@ -110,15 +110,16 @@ class Translator(Obliged):
         }
         return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
 
-    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
-        """One call of a unit; `here`: the condition under which it happens."""
+    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef, root: str = "") -> None:
+        """One call of a unit; `here`: the condition under which it happens; root: the path above globals."""
+        root = above if unit.whole else root
         if unit.device is not None:
             unit.device.terms(above.removesuffix("."), env)
             return
         for name, variable in unit.of("temp").items():
             for path, kind, value in singles(variable.type, f"{above}{name.upper()}", variable.initial):
                 env[path] = constant(kind, value)
-        self.body(Context(self, Types(self.source, unit), above), unit.body, env, here)
+        self.body(Context(self, Types(self.source, unit), above, root), unit.body, env, here)
 
     def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> Left:
         """Carry out a body in `env`; returns where it was left before its end."""
@@ -230,9 +231,10 @@ class Translator(Obliged):
             inputs, outputs = handed_to_function(unit, call)
             given = {name.upper(): value for name, value in inputs}
             inner = at.called(given, unit, call.place, env, here)
+            env |= {path: inner[path] for path in env}
             back = {name.upper() for name in unit.of("in_out")}
             for name, target in (*(pair for pair in inputs if pair[0].upper() in back), *outputs):
-                at.assign(target, {"": inner[name.upper()]}, env, here)
+                at.assign(target, {"": inner[f"{frame(unit)}{name.upper()}"]}, env, here)
             return
         instances = at.places(call.instance, env, here)
         kind = at.types.of(call.instance)
@@ -247,7 +249,7 @@ class Translator(Obliged):
         for there, path in instances:
             made = env if z3.is_true(there) else dict(env)
             if kind.block.upper() in self.source.units:
-                self.call(self.source.units[kind.block.upper()], f"{path}.", made, both(here, there))
+                self.call(self.source.units[kind.block.upper()], f"{path}.", made, both(here, there), at.root)
             else:
                 standard_call(kind.block.upper(), path, made)
             if made is not env:

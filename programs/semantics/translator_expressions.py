@@ -58,17 +58,28 @@ _PLAIN: Mapping[str, Callable[[Any, Any], Any]] = {
 
 MOST_PLACES = 1000
 """What a free index may choose from."""
+
+
+def frame(unit: Unit) -> str:
+    """What is before the names of a FUNCTION's own variables while it is called; it never calls itself."""
+    return f"{unit.name.upper()}()."
+
+
 Places = list[tuple[z3.BoolRef, str]]
 """Paths, and when each of them is meant."""
 
 
 @dataclass(frozen=True)
 class Context:
-    """Where a body is: the translator, the types of its unit, and the path above its variables."""
+    """Where a body is: the translator, the types of its unit, and the path above its variables.
+
+    root: the path above the globals.
+    """
 
     translator: Obliged
     types: Types
     above: str
+    root: str
 
     def places(self, target: Expression, env: Env, here: z3.BoolRef) -> Places:
         """Where a variable is: its path, or with a free index each path that it may have and when.
@@ -77,7 +88,8 @@ class Context:
         """
         match target:
             case Name(name, _):
-                return [(TRUE, f"{self.above}{name.upper()}")]
+                own = self.types.unit.variables[name.upper()].section != "external"
+                return [(TRUE, f"{self.above if own else self.root}{name.upper()}")]
             case Member(of, name, _):
                 return [(there, f"{path}.{name.upper()}") for there, path in self.places(of, env, here)]
             case Index(of, index, place):
@@ -245,22 +257,28 @@ class Context:
 
     def own(self, node: Function, unit: Unit, env: Env, here: z3.BoolRef) -> Any:
         """The result of a FUNCTION of the program's own."""
-        return self.called(own_arguments(node, unit), unit, node.place, env, here)[unit.name.upper()]
+        inner = self.called(own_arguments(node, unit), unit, node.place, env, here)
+        return inner[f"{frame(unit)}{unit.name.upper()}"]
 
     def called(
-        self, given: Mapping[str, Expression], unit: Unit, place: Place, env: Env, here: z3.BoolRef
+        self, arguments: Mapping[str, Expression], unit: Unit, place: Place, env: Env, here: z3.BoolRef
     ) -> Env:
-        """The variables of a FUNCTION after a call with these arguments: it begins anew in each call."""
-        inner: Env = {}
+        """All variables after a call of a FUNCTION with these arguments: it begins anew in each call.
+
+        Its own are below `frame`; the others are those of `env`, of which it may have written globals.
+        """
+        inner, above = dict(env), frame(unit)
         for key, variable in unit.variables.items():
-            own = singles(variable.type, key, variable.initial)
-            inner |= {path: constant(kind, value) for path, kind, value in own}
-        for key, expression in given.items():
+            if variable.section != "external":
+                own = singles(variable.type, f"{above}{key}", variable.initial)
+                inner |= {path: constant(kind, value) for path, kind, value in own}
+        for key, expression in arguments.items():
             kind = unit.variables[key].type
             assert isinstance(kind, Scalar)
             term = self.value(expression, env, here, kind)
-            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, place, here)
-        self.translator.call(unit, "", inner, here)
+            given = self.types.of(expression, kind)
+            inner[f"{above}{key}"] = self.translator.fitted(term, given, kind, place, here)
+        self.translator.call(unit, above, inner, here, self.root)
         return inner
 
     def converted(

@@ -14,12 +14,13 @@ from pathlib import Path
 
 import pytest
 
+from modeproof.ground import places
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import TREE
 from modeproof.ground.progress import Progress
 from modeproof.lane import staging
 from modeproof.lane.renew import _blocks_of
-from modeproof.lane.renewal import Refused, Renewal, _cases, _pages_of_faults
+from modeproof.lane.renewal import Refused, Renewal, Stale, _cases, _pages_of_faults, _runs_to_check
 from tests.cli.test_sixth_document import edit, empty_root, with_the_sixth
 
 DRIVER = """
@@ -262,6 +263,13 @@ def test_vectors_of_a_machine_wait_for_every_changed_block() -> None:
 
 
 # ------------------------------------------------------------------------------------------ all or nothing
+
+
+def test_a_story_of_a_new_run_has_changed_nothing() -> None:
+    work = Renewal(places.root(), "edm", "".join, Progress(quiet=True))
+    there = next(run.id for run in work.document.runs if run.kind == "NEG")
+    assert list(_runs_to_check(work, Stale(stories=("NEG_SF_EDM_new",)))) == []
+    assert len(list(_runs_to_check(work, Stale(stories=(there,))))) > 10
 
 
 @pytest.fixture

@@ -73,9 +73,10 @@ def pieces(path: Path) -> Iterator[Piece]:
 def project(path: Path) -> tuple[dict[str, Unit], dict[str, str]] | None:
     """The units of a file that is PLCopen XML, and why others are refused; None: it is something else."""
     try:
-        found, refused = read_plcopen(path.read_bytes(), path.name)
+        read = read_plcopen(path.read_bytes(), path.name)
     except Unjudged:
         return None
+    found, refused = read.units, read.refused
     units = {unit.name.upper(): unit for unit, _ in found}
     declared = Source(dict(units), {})
     causes = {name: _cause(error) for name, error in refused.items()}

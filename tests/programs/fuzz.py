@@ -8,9 +8,10 @@ from typing import Any
 import z3
 
 from programs.language.memory import leaves
+from programs.language.shared_memory import completed, linked
 from programs.language.subset import check
 from programs.language.tree import Array, Source, Struct, Unit
-from programs.readers.structured_text.units import read_text
+from programs.readers.structured_text.units import read_all
 from programs.semantics.interpreter import Machine
 from programs.semantics.interpreter_expressions import Overflow
 from programs.semantics.terms import constant, slots, symbol
@@ -19,15 +20,18 @@ from programs.semantics.value_paths import memory_of, value_at
 
 
 def source_of(text: str, file: str = "b.st") -> Source:
-    """The units of a text."""
-    return Source({unit.name.upper(): unit for unit in read_text(text, file)}, {file: ""})
+    """The units of a text, with its globals."""
+    read = read_all(text, file)
+    units = {unit.name.upper(): unit for unit in read.units}
+    return Source(linked(units, read.globals), {file: ""}, tasks=tuple(read.tasks))
 
 
 def difference_of_text(text: str, seed: int, scans: int, wrap: bool = False) -> str:
     """As `difference_of_translator`, for the main unit of a text."""
     source = source_of(text)
-    check(source, source.main())
-    return difference_of_translator(source, source.main(), seed, scans, wrap)
+    unit = completed(source, source.main())
+    check(source, unit)
+    return difference_of_translator(source, unit, seed, scans, wrap)
 
 
 def difference_of_translator(source: Source, unit: Unit, seed: int, scans: int, wrap: bool = False) -> str:

@@ -6,6 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from types import ModuleType
 
+from modeproof.ground.places import root
+from modeproof.registers import load_document
+from modeproof.registers.demands import MODULE
 from proofs.sentences import Judge, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem
@@ -41,6 +44,11 @@ def named(*modules: ModuleType) -> set[str]:
     """The properties that the theorems of these modules prove."""
     found = [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
     return {name for one in found for name in one.properties}
+
+
+def decided(document: str) -> set[str]:
+    """The properties of what we decided, without the demands of the page that TLC judges beside them."""
+    return {one.id for one in load_document(root(), document).properties if not one.module.endswith(MODULE)}
 
 
 def wrong_answers(queries: Iterable[Query]) -> list[str]:

@@ -13,6 +13,8 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.places import root
+from modeproof.registers.load import load_interface
+from modeproof.registers.replay import load_replay
 from modeproof.registers.tla import read_modules
 from modeproof.report.parts.traces import part
 from modeproof.report.sources import gather
@@ -56,6 +58,15 @@ def test_a_module_with_copies_alone_stays_out_of_the_cfg() -> None:
     assert there == {"EDM", "CyclicBlock", "StepName"}
     assert everywhere([], "TLCEval", "EDMOpen", there) == ""
     assert everywhere([], "TLCEval", "EDM", there) == "CONSTANT TLCEval <- [EDM]walk_TLCEval\n"
+
+
+def test_a_scan_without_a_step_has_its_device() -> None:
+    """Where a model has one device; in the whole system nobody can say whose it would be."""
+    traces = load_replay(root(), "mode_selection")
+    for module, who in (("PlcDemands", "plc"), ("KeyFlows", "")):
+        interface, modules = load_interface(root(), "mode_selection"), read_modules(root(), "mode_selection")
+        plan = Plan("mode_selection", module, traces.tops[module], traces, interface, modules)
+        assert plan.who({"step": '"CopyMW03"'}, {"step": '"NoStep"'}) == who
 
 
 def test_a_module_that_the_register_does_not_declare_is_named(

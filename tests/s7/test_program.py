@@ -306,14 +306,44 @@ def test_what_was_written_is_put_back_at_the_end(suite: Suite, plc: Plc, tmp_pat
         b"\x12\x34",
         b"abcd",
     )
-    kept = bytes(plc.settings), bytes(plc.inputs), bytes(plc.control[0:4]), b"\x12\x34"
+    kept = bytes(plc.settings), bytes([0b11000001]), bytes(plc.control[0:4]), b"\x12\x34"
     with s7.connect(plc.address, path, suite) as program:
         program.reset({})
         assert bytes(plc.settings) != kept[0]
+        plc.inputs[0] |= 0b11000000  # the power-up of this program has cleared them
         program.scan(7, NOTHING | {"A": True, "MW03": "0FF0"})
         assert plc.inputs[0] == 0b11000010, "the bits without a name are as they were"
     assert (bytes(plc.settings), bytes(plc.inputs), bytes(plc.control[0:4]), bytes(plc.flags[3:5])) == kept
     assert plc.scans == 1, "to put it back starts no scan"
+
+
+def test_a_plc_that_stops_being_a_rig_within_a_case_is_left(
+    suite: Suite, plc: Plc, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "map.csv"
+    path.write_text(STEPPED, encoding="utf-8")
+    with s7.connect(plc.address, path, suite) as program:
+        program.reset({})
+        program.scan(7, NOTHING | {"A": True})
+        plc.control[12:16] = b"LIVE"
+        before = memory_of(plc)
+        with pytest.raises(Unjudged, match="this PLC is no test rig; nothing more is written"):
+            program.scan(7, NOTHING)
+    assert memory_of(plc) == before
+    assert "what was written is not put back: " in capsys.readouterr().err
+
+
+def test_a_living_bit_in_a_mapped_byte_is_left(suite: Suite, plc: Plc, tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    path.write_text(STEPPED, encoding="utf-8")
+    with s7.connect(plc.address, path, suite) as program:
+        program.reset({})
+        program.scan(7, NOTHING | {"A": True})
+        plc.inputs[0] |= 0b10000000
+        with pytest.raises(Unjudged, match=r"a bit of DB3\.DBB0 that the map does not name has changed"):
+            program.scan(7, NOTHING)
+        assert plc.inputs[0] == 0b10000010
+    assert plc.inputs[0] == 0b10000000, "put back, but for the bit that is somebody else's"
 
 
 def test_without_the_option_for_rigs_nobody_is_called(

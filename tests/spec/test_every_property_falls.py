@@ -269,7 +269,7 @@ def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> 
     ],
 )
 def test_a_negative_of_more_than_one_change_is_no_killer(row: str, tree: Path) -> None:
-    change(tree, "spec/edm/runs.toml", 'reading = "StopBeforeTimeout"', row)
+    change(tree, "spec/edm/runs.toml", 'reading = "StopBeforeTimeout", property', f"{row}, property")
     assert problems(tree) == [
         "spec/edm/properties.toml: MissedPickUpIsAnError: is broken by nothing: "
         "give it an edit of a device in killers.toml, or say why none can be"

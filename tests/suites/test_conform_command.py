@@ -201,6 +201,8 @@ def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[s
     ("arguments", "said"),
     [
         (["lmap", "--builtin", "toyimpl"], "no target 'lmap'; did you mean 'lamp'?"),
+        (["/etc/passwd", "--adapter", "x"], "no target '/etc/passwd'; allowed: lamp"),
+        (["", "--adapter", "x"], "no target ''; allowed: lamp"),
         (["lamp", "--builtin", "noimpl"], "noimpl.toy.lamp cannot be imported"),
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
         (

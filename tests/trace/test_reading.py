@@ -209,6 +209,7 @@ REFUSED_TABLES = {
     "too many cells": ("t_ms;LA\n0;1;1\n", "line 2: 3 cells where 2 were expected"),
     "no time": ("t_ms;LA\nnoon;1\n", "line 2, t_ms: 'noon' is no time"),
     "NaN": ("t_ms;LA\nNaN;1\n", "line 2, t_ms: 'NaN' is no time"),
+    "beyond all bounds": ("t_ms;LA\n1e999999999999;1\n", "line 2, t_ms: '1e999999999999' is no time"),
     "a missing time": ("t_ms;LA\n;1\n", "line 2, t_ms: the time is missing"),
     "time going back": ("t_s;LA\n2;1\n1.5;1\n", "line 3, t_ms: time goes back, from 2000 ms to 1500 ms"),
     "part of a ms": ("t_us;LA\n1500;1\n", "line 2, t_ms: 1.5 is no whole number of ms"),

@@ -14,13 +14,14 @@ from functools import partial
 
 from modeproof.ground.errors import Unjudged
 from programs.language.pou_actions import Actions
-from programs.language.tree import Body, Place, Source, Unit
+from programs.language.time_literals import time_ms
+from programs.language.tree import Body, Place, Source, Task, Unit, Variable
 from programs.readers.attributes import retained
 from programs.readers.plcopen.diagram_statements import Diagram
 from programs.readers.plcopen.diagrams import attributes_of, harmless, only, truth
 from programs.readers.plcopen.xml_tree import Element, read_xml
 from programs.readers.structured_text.source_text import RETAINS, prepared
-from programs.readers.structured_text.units import read_text
+from programs.readers.structured_text.units import read_all, read_text
 
 SPACES = ("http://www.plcopen.org/xml/tc6_0201", "http://www.plcopen.org/xml/tc6_0200")
 POUS = {"functionBlock": "FUNCTION_BLOCK", "program": "PROGRAM", "function": "FUNCTION"}
@@ -30,43 +31,108 @@ SECTIONS = {
     "inOutVars": "VAR_IN_OUT",
     "localVars": "VAR",
     "tempVars": "VAR_TEMP",
+    "externalVars": "VAR_EXTERNAL",
 }
+OTHERS = {
+    "RSLogix5000Content": "L5X of Rockwell is not read; export the routine as Structured Text",
+    "Document": "SimaticML of TIA is not read; let TIA generate the source of the block (.scl)",
+    "STSource": "this form of Schneider is not read; export the section as Structured Text",
+    "FEFExchangeFile": "XEF of Schneider is not read; export the section as Structured Text",
+}
+"""Roots of other XML, each with what to do."""
 _RETAIN = re.compile(r"\b(?:RETAIN|PERSISTENT)\b", re.IGNORECASE)
 _COMMENT = re.compile(r"//[^\n]*|\(\*.*?\*\)", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_ADDRESS = re.compile(r"%[A-Za-z]+(?:\d+(?:\.\d+)*|\*)", re.ASCII)
 Lower = Callable[[Source], Unit]
 """Makes the body of a unit once the declarations of all units are known."""
 
 
-def read_plcopen(text: bytes, file: str) -> tuple[list[tuple[Unit, Lower]], dict[str, Unjudged]]:
-    """The units of one file, each with the function that makes its body; and what is refused, by its name.
+@dataclass
+class Project:
+    """What one file declares: its units, each with what makes its body, globals, tasks; what is refused.
 
-    Raises Unjudged for a file that is no such project.
+    words: those in each POU that is refused, in upper case.
     """
+
+    units: list[tuple[Unit, Lower]] = field(default_factory=list)
+    refused: dict[str, Unjudged] = field(default_factory=dict)
+    shared: list[Variable] = field(default_factory=list)
+    tasks: list[Task] = field(default_factory=list)
+    words: dict[str, frozenset[str]] = field(default_factory=dict)
+
+
+def read_plcopen(text: bytes, file: str) -> Project:
+    """The project in one file. Raises Unjudged for a file that is none."""
     root = read_xml(text, file)
+    if root.name in OTHERS:
+        raise root.place.refuse(OTHERS[root.name])
     if root.name != "project" or root.space not in SPACES:
         raise root.place.refuse(
             f"<{root.name}> in {root.space or 'no namespace'!r} is no PLCopen XML of TC6 2"
         )
     types = _Text()
-    refused: dict[str, Unjudged] = {}
-    for kind in root.below("dataType"):
+    found = Project()
+    for kind in _in_order(list(root.below("dataType"))):
+        text_of_kind = _Text([*types.lines])
         try:
-            types.put(kind.place, f"TYPE {_identifier(kind, 'name')} : {_data_type(kind)}; END_TYPE")
+            text_of_kind.put(kind.place, f"TYPE {_identifier(kind, 'name')} : {_data_type(kind)}; END_TYPE")
+            read_text("\n".join(text_of_kind.lines), file)
+            types = text_of_kind
         except Unjudged as error:
-            refused[kind.attributes.get("name", "").upper()] = error
-    found: dict[str, tuple[Unit, Lower]] = {}
+            found.refused[kind.attributes.get("name", "").upper()] = error
+            found.words[kind.attributes.get("name", "").upper()] = frozenset()
+    names: set[str] = set()
     for pou in root.below("pou"):
         name = pou.get("name").upper()
-        if name in found or name in refused:
+        if name in names or name in found.refused:
             raise pou.place.refuse(f"there is another unit with the name {pou.get('name')}")
+        names.add(name)
+        found.words[name] = frozenset(_words(pou))
         try:
-            found[name] = _pou(pou, _Text([*types.lines]), file)
+            found.units.append(_pou(pou, _Text([*types.lines]), file))
         except Unjudged as error:
-            refused[name] = error
-    if not found and not refused:
+            found.refused[name] = error
+    if not names and not found.refused:
         raise root.place.refuse("the project has no POU")
-    return list(found.values()), refused
+    globals_ = _Text([*types.lines])
+    for group in root.below("globalVars"):
+        _put_group(group, "VAR_GLOBAL", globals_)
+    read = read_all("\n".join(globals_.lines), file)
+    found.shared = read.globals
+    for task in root.below("task"):
+        programs = tuple(one.get("typeName") for one in task.all("pouInstance"))
+        given = task.attributes.get("interval")
+        interval = time_ms(given, task.place) if given and "#" in given else None
+        found.tasks.append(Task(task.get("name"), interval, programs, task.place))
+    return found
+
+
+def _in_order(kinds: list[Element]) -> list[Element]:
+    """Data types, each behind those that it needs."""
+    names = {kind.attributes.get("name", "").upper(): kind for kind in kinds}
+    found: list[Element] = []
+
+    def put(kind: Element, above: tuple[Element, ...]) -> None:
+        if any(kind is one for one in (*found, *above)):
+            return
+        for needed in kind.below("derived"):
+            other = names.get(needed.attributes.get("name", "").upper())
+            if other is not None:
+                put(other, (*above, kind))
+        found.append(kind)
+
+    for kind in kinds:
+        put(kind, ())
+    return found
+
+
+def _words(element: Element) -> Iterator[str]:
+    """The words of an element and of all within it, in upper case."""
+    for text in (element.text, *element.attributes.values()):
+        yield from re.findall(r"%?\w+", text.upper())
+    for child in element.children:
+        yield from _words(child)
 
 
 def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
@@ -151,6 +217,29 @@ def _variables(pou: Element) -> Iterator[tuple[Element, Element]]:
                     yield group, variable
 
 
+def _put_group(group: Element, section: str, text: _Text) -> None:
+    """The variables of one group as Structured Text."""
+    for child in group.children:
+        if child.name not in ("variable", "documentation", "addData"):
+            raise child.place.refuse(f"<{child.name}> in <{group.name}> is not supported")
+    harmless(group)
+    words = [section, *(["CONSTANT"] if truth(group, "constant") else [])]
+    words += ["RETAIN"] if truth(group, "retain") or truth(group, "persistent") else []
+    for variable in group.all("variable"):
+        only(variable, "type", "initialValue")
+        declared, given = variable.child("type"), variable.child("initialValue")
+        if declared is None:
+            raise variable.place.refuse("the variable has no <type>")
+        value = "" if given is None else f" := {_value(given)}"
+        name, at = _identifier(variable, "name"), variable.attributes.get("address", "")
+        if at and not _ADDRESS.fullmatch(at):
+            raise variable.place.refuse(f"AT {at}: no address")
+        marks = [f"{{attribute '{said}'}}" for said, _, _ in attributes_of(variable) if retained(said)]
+        place = f" AT {at}" if at else ""
+        whole = f"{' '.join([*words, *marks])} {name}{place} : {_type(declared)}{value}; END_VAR"
+        text.put(variable.place, whole)
+
+
 def _declare(pou: Element, text: _Text, body: Element) -> None:
     kind = pou.get("pouType")
     if kind not in POUS:
@@ -168,24 +257,7 @@ def _declare(pou: Element, text: _Text, body: Element) -> None:
     for interface in pou.all("interface"):
         only(interface, "returnType", *SECTIONS)
         for group in (group for group in interface.children if group.name in SECTIONS):
-            for child in group.children:
-                if child.name not in ("variable", "documentation", "addData"):
-                    raise child.place.refuse(f"<{child.name}> in <{group.name}> is not supported")
-            harmless(group)
-    for group, variable in _variables(pou):
-        only(variable, "type", "initialValue")
-        if "address" in variable.attributes:
-            raise variable.place.refuse("AT: variables at addresses are not supported; give it a name alone")
-        if truth(group, "persistent"):
-            raise group.place.refuse("persistent variables are not supported")
-        words = [SECTIONS[group.name], *(w.upper() for w in ("constant", "retain") if truth(group, w))]
-        declared, given = variable.child("type"), variable.child("initialValue")
-        if declared is None:
-            raise variable.place.refuse("the variable has no <type>")
-        value = "" if given is None else f" := {_value(given)}"
-        name = _identifier(variable, "name")
-        words += [f"{{attribute '{said}'}}" for said, _, _ in attributes_of(variable) if retained(said)]
-        text.put(variable.place, f"{' '.join(words)} {name} : {_type(declared)}{value}; END_VAR")
+            _put_group(group, SECTIONS[group.name], text)
     if body.name == "ST":
         inner = _text_of(body)
         text.put(inner.place, inner.text, inner.text_line)
@@ -230,9 +302,10 @@ def _type(element: Element) -> str:
     if kind.name == "array":
         only(kind, "dimension", "baseType")
         ranges, base = list(kind.all("dimension")), kind.child("baseType")
-        if len(ranges) != 1 or base is None:
-            raise kind.place.refuse("an array has one range and one base type here")
-        return f"ARRAY [{ranges[0].get('lower')}..{ranges[0].get('upper')}] OF {_type(base)}"
+        if not ranges or base is None:
+            raise kind.place.refuse("an array has a range and one base type here")
+        shown = ", ".join(f"{one.get('lower')}..{one.get('upper')}" for one in ranges)
+        return f"ARRAY [{shown}] OF {_type(base)}"
     if kind.children or kind.attributes or kind.name != kind.name.upper():
         raise kind.place.refuse(f"type {kind.name} is not supported")
     return kind.name
@@ -242,17 +315,35 @@ def _data_type(kind: Element) -> str:
     only(kind, "baseType", "initialValue")
     base = kind.child("baseType")
     found = None if base is None or len(base.children) != 1 else base.children[0]
-    if base is None or found is None or kind.child("initialValue"):
-        raise kind.place.refuse(f"data type {kind.attributes.get('name')}: a base type alone is needed")
+    if base is None or found is None:
+        raise kind.place.refuse(f"data type {kind.attributes.get('name')}: a base type is needed")
+    given = kind.child("initialValue")
+    first = "" if given is None else f" := {_value(given)}"
+    if found.name == "struct":
+        only(found, "variable")
+        members = [_member(member) for member in found.all("variable")]
+        if first:
+            raise kind.place.refuse("a structure with a first value of its own is not supported")
+        return f"STRUCT {' '.join(members)} END_STRUCT"
     if found.name != "enum":
-        return _type(base)
+        return _type(base) + first
     only(found, "values", "baseType")
     values = [value for group in found.all("values") for value in group.children]
     shown = [
         _identifier(value, "name") + (f" := {value.get('value')}" if "value" in value.attributes else "")
         for value in values
     ]
-    return f"({', '.join(shown)})"
+    return f"({', '.join(shown)}){first}"
+
+
+def _member(variable: Element) -> str:
+    """A member of a structure as Structured Text."""
+    only(variable, "type", "initialValue")
+    declared, given = variable.child("type"), variable.child("initialValue")
+    if declared is None or "address" in variable.attributes:
+        raise variable.place.refuse("a member of a structure has a type, and no address here")
+    value = "" if given is None else f" := {_value(given)}"
+    return f"{_identifier(variable, 'name')} : {_type(declared)}{value};"
 
 
 def _value(element: Element) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from programs.language.addresses import ANYWHERE
 from programs.language.tree import SCALARS, Place
 from programs.readers.attributes import dropped, refusal, retained
 
@@ -29,7 +30,7 @@ _TOKEN = re.compile(
     | (?P<pragma> \{[^{}]*\} )
     | (?P<time> \b(?:L?TIME|L?T)\#[\w.]+ )
     | (?P<member> \b[A-Za-z_]\w*\#(?=[A-Za-z_]) )
-    | (?P<address> %[IQM]\w*(?:\.\d+)* )
+    | (?P<address> %[IQM](?:\*|\w*(?:\.\d+)*) )
     | (?P<number> \b\d[\w\#]*(?:\.\d\w*)? )
     | (?<=[\w\]])\.(?:%(?P<size>[A-Z]?))?(?P<bit>\d+)\b
     | (?P<using> \bUSING\s+[A-Za-z_][\w.,\s]*; )
@@ -83,6 +84,8 @@ def _changed(match: re.Match[str], kind: str, place: Place) -> str:
             raise place.refuse(f"{found} begins a comment that does not end")
         case "pragma":
             return _pragma(found, place)
+        case "address" if found.endswith("*"):
+            return found[:-1] + ANYWHERE
         case "using" | "based":
             return _blank(found) if kind == "using" else ")" + _blank(found[1:])
         case "time":

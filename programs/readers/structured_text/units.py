@@ -7,76 +7,88 @@ file and line: nothing is skipped.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from types import MappingProxyType
-from typing import Any, TypeGuard
-
-import tree_sitter
-import tree_sitter_iec61131_3_st
+from dataclasses import dataclass, replace
+from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.language.addresses import Addresses
-from programs.language.constants import known
+from programs.language.addresses import area_of
 from programs.language.memory import leaves
 from programs.language.standard_blocks import BLOCKS
+from programs.language.time_literals import time_ms
 from programs.language.tree import (
     SCALARS,
-    Array,
-    Instance,
-    Member,
-    Name,
     Place,
     Scalar,
-    Struct,
+    Task,
     Type,
     Unit,
     Variable,
     blocks_in,
-    shown,
 )
 from programs.readers.structured_text.declaration_text import (
     Declared,
-    elements,
-    is_fields,
-    is_list,
-    named,
     taken_apart,
 )
 from programs.readers.structured_text.source_text import NO_RESULT, RETAINS, prepared
-from programs.readers.structured_text.statements import Bodies
+from programs.readers.structured_text.types_and_values import (
+    LONGEST,
+    PARSER,
+    Known,
+    TypesAndValues,
+    joined,
+    undecided,
+)
 
-LONGEST = 1000
-"""Elements of an array."""
 SECTIONS = {
     "var_input": "input",
     "var_output": "output",
     "var_block": "var",
     "var_temp": "temp",
     "var_in_out": "in_out",
+    "var_external": "external",
+    "var_global": "global",
 }
-_PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
+
+SECTIONS_OF_AREAS = {"I": "input", "Q": "output", "M": "external"}
+
+NOTHING = Known()
 
 
-KnownTypes = Mapping[str, tuple[Type, str]]
-"""Types by their names in upper case, each with its namespace."""
+@dataclass(frozen=True)
+class Read:
+    """What one text declares: units, globals, and when programs run."""
+
+    units: list[Unit]
+    globals: list[Variable]
+    tasks: list[Task]
 
 
-def read_text(text: str, file: str, types: KnownTypes = MappingProxyType({})) -> list[Unit]:
-    """The program units of one text. types: those of other files. Raises Unjudged with file, line, cause."""
-    reader, root = _parsed(text, file, types)
-    return reader.units(root)
+def read_text(text: str, file: str) -> list[Unit]:
+    """The program units of one text. Raises Unjudged with file, line, cause."""
+    return read_all(text, file).units
 
 
-def types_in(text: str, file: str, types: KnownTypes) -> KnownTypes:
-    """The types that one text declares; types: those of other files. Raises Unjudged as `read_text`."""
-    reader, root = _parsed(text, file, types)
-    return {name: kind for name, kind in reader.own_types(root).items() if name not in types}
+def read_all(text: str, file: str, known: Known = NOTHING, group: str = "") -> Read:
+    """All that one text declares. known: that of other files; group: the list to which globals belong."""
+    reader, root = _parsed(text, file, known)
+    reader.group = group
+    return Read(reader.units(root), reader.globals, reader.tasks)
 
 
-def _parsed(text: str, file: str, types: KnownTypes) -> tuple[_Reader, Any]:
+def known_in(text: str, file: str, known: Known, group: str = "") -> Known:
+    """The types and the constants that one text declares. Raises Unjudged as `read_all`."""
+    reader, root = _parsed(text, file, known)
+    reader.group = group
+    types = {name: kind for name, kind in reader.own_types(root).items() if name not in known.types}
+    reader.own_globals(root)
+    constants = {key: one for key, one in reader.constants.items() if known.constants.get(key) is not one}
+    return Known(types, constants)
+
+
+def _parsed(text: str, file: str, known: Known) -> tuple[_Reader, Any]:
     text, using = prepared(text, file)
     apart = taken_apart(text, file)
-    root = _PARSER.parse(apart.text.encode("utf-8")).root_node
+    root = PARSER.parse(apart.text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
@@ -85,7 +97,7 @@ def _parsed(text: str, file: str, types: KnownTypes) -> tuple[_Reader, Any]:
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
-    return _Reader(file, tuple((one.namespace, one.place) for one in using), apart, types), root
+    return _Reader(file, tuple((one.namespace, one.place) for one in using), apart, known), root
 
 
 def _advice(shown: str) -> str:
@@ -111,18 +123,20 @@ def _nodes(node: Any) -> Iterator[Any]:
         waiting += here.children
 
 
-class _Reader(Bodies):
+class _Reader(TypesAndValues):
     """Reads the tree of one file."""
 
     def __init__(
-        self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared, types: KnownTypes
+        self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared, known: Known
     ) -> None:
-        super().__init__(file)
-        self.using, self.apart = using, apart
-        self.types: dict[str, Type] = {name: kind for name, (kind, _) in types.items()}
-        self.spaces: dict[str, str] = {name: space for name, (_, space) in types.items()}
-        """The namespace of each type."""
-        self.addresses: Addresses | None = None
+        super().__init__(file, apart, known)
+        self.using = using
+        self.placed = False
+        """Whether variables may have addresses here."""
+        self.group = ""
+        """The list of globals that this file is."""
+        self.globals: list[Variable] = []
+        self.tasks: list[Task] = []
         self.retaining: set[int] = set()
         """The marks RETAINS that were read, by their bytes."""
 
@@ -134,17 +148,23 @@ class _Reader(Bodies):
             if node.type == "namespace_declaration":
                 name = self.field(node, "name")
                 inner = [child for child in self.named(node) if child != name]
-                own = _joined(self.text(name))
+                own = joined(self.text(name))
                 yield from self.within(inner, f"{namespace}.{own}" if namespace else own)
             else:
                 yield node, namespace
 
-    def own_types(self, root: Any) -> KnownTypes:
+    def own_types(self, root: Any) -> Mapping[str, tuple[Type, str]]:
         """The types that are known after those of this file were read."""
         for node, namespace in self.within(self.named(root)):
             if node.type == "type_declaration":
                 self.define_all(node, namespace)
         return {name: (kind, self.spaces[name]) for name, kind in self.types.items()}
+
+    def own_globals(self, root: Any) -> None:
+        """Read the globals of this file alone."""
+        for node in self.named(root):
+            if node.type in ("global_var_declaration_block", "configuration_declaration"):
+                self.shared(node)
 
     def units(self, root: Any) -> list[Unit]:
         found = list(self.declarations(root))
@@ -175,8 +195,46 @@ class _Reader(Bodies):
                 if unit.name.upper() in self.types:
                     raise unit.place.refuse(f"there is a type with the name {unit.name}")
                 yield unit
+            elif node.type in ("global_var_declaration_block", "configuration_declaration"):
+                self.shared(node)
             else:
                 raise self.refuse(node)
+
+    def shared(self, node: Any) -> None:
+        """Read the globals and the tasks of a configuration, of a resource, or of a list of globals."""
+        self.variables, self.placed = {one.name.upper(): one for one in self.globals}, True
+        running: dict[str, list[str]] = {}
+        parts = self.named(node)
+        tasks = [child for child in parts if child.type == "task_declaration"]
+        for child in parts:
+            if child.type == "var_global":
+                for variable in self.declared(child):
+                    self.variables[variable.name.upper()] = variable
+                    self.globals.append(replace(variable, group=self.group))
+                    if variable.section == "constant" and isinstance(variable.type, Scalar):
+                        for key in (variable.name.upper(), f"{self.group}.{variable.name}".upper()):
+                            self.constants[key] = variable
+            elif child.type == "resource_declaration":
+                self.shared(child)
+            elif child.type == "program_assignment":
+                names = [self.text(one) for one in self.named(child)]
+                known = {self.text(self.named(task)[0]).upper() for task in tasks}
+                if len(names) != 3 or names[1].upper() not in known:
+                    raise self.refuse(child, "PROGRAM name WITH task : type alone is understood here")
+                running.setdefault(names[1].upper(), []).append(names[2])
+            elif child.type not in ("identifier", "task_declaration"):
+                raise self.refuse(child)
+        for task in tasks:
+            name, *given = self.named(task)
+            interval = None
+            for part in given:
+                key, value = (self.text(one) for one in self.named(part))
+                if key.upper() == "INTERVAL":
+                    interval = time_ms(value, self.place(part))
+                elif key.upper() != "PRIORITY":
+                    raise self.refuse(part)
+            programs = tuple(running.get(self.text(name).upper(), ()))
+            self.tasks.append(Task(self.text(name), interval, programs, self.place(task)))
 
     def define_all(self, node: Any, namespace: str) -> None:
         """Read the types of one declaration."""
@@ -198,12 +256,12 @@ class _Reader(Bodies):
     def unit(self, node: Any) -> Unit:
         name = self.text(self.field(node, "name"))
         self.variables = variables = {}
-        self.addresses = Addresses() if node.type == "program_declaration" else None
+        self.placed = node.type == "program_declaration"
         body_nodes = self.fields(node, "body")
         for child in self.named(node):
             if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
                 continue
-            if child.type not in SECTIONS:
+            if child.type not in SECTIONS or child.type == "var_global":
                 raise self.refuse(child)
             for variable in self.declared(child):
                 if variable.name.upper() in variables:
@@ -233,9 +291,11 @@ class _Reader(Bodies):
                     word = self.text(qualifier).upper()
                     if word == "CONSTANT" and kind == "input":
                         continue  # a unit never writes its inputs here
-                    if word == "CONSTANT" and kind == "var":
+                    if word == "CONSTANT" and kind == "external":
+                        continue  # its declaration as a global says so too
+                    if word == "CONSTANT" and kind in ("var", "global"):
                         kind = "constant"
-                    elif word == "RETAIN" and kind in ("var", "output"):
+                    elif word == "RETAIN" and kind in ("var", "output", "global", "external"):
                         retained = True
                     elif word not in ("NON_RETAIN", "PRIVATE", "PUBLIC", "INTERNAL", "PROTECTED"):
                         raise self.refuse(qualifier, f"{word} is not supported here")
@@ -246,184 +306,24 @@ class _Reader(Bodies):
             nodes, place = self.fields(child, "initial_value"), self.place(child)
             initial = self.initial(nodes, self.field(child, "type").end_byte, declared, place)
             kept = retained or bool(marks)
+            if kind == "external" and initial is not None:
+                raise self.refuse(child, "VAR_EXTERNAL: the first value belongs to VAR_GLOBAL")
             if (kept or kind == "constant") and any(blocks_in(declared)):
                 word = "RETAIN" if kept else "CONSTANT"
                 raise self.refuse(child, f"{word}: an instance of a block is not supported there")
-            self.retaining |= marks if kind in ("var", "output") else set()
+            self.retaining |= marks if kind in ("var", "output", "global") else set()
             marks = set()
             if len(leaves(declared)) > LONGEST:
                 raise self.refuse(child, f"a variable has at most {LONGEST:,} single values")
-            if kind != "in_out" and initial is None and _undecided(declared):
+            if kind != "in_out" and initial is None and undecided(declared):
                 raise self.refuse(child, f"{declared.name}: give it a first value; compilers differ here")
-            names, own = self.fields(child, "names"), kind
+            names, own, at = self.fields(child, "names"), kind, ""
             if (address := self.field(child, "address")) is not None:
-                if self.addresses is None or kind != "var" or len(names) != 1 or initial is not None or kept:
-                    what = "a variable in VAR of a PROGRAM, one alone, without a first value"
+                if not self.placed or kind not in ("var", "global") or len(names) != 1:
+                    what = "a variable in VAR of a PROGRAM or in VAR_GLOBAL, one alone,"
                     raise self.refuse(child, f"AT: {what} has an address here")
-                own = self.addresses.section(self.text(address), declared, self.text(names[0]), place)
+                at = self.text(address).upper()
+                area = area_of(at, declared, place)
+                own = SECTIONS_OF_AREAS[area] if kind == "var" else kind
             for name in names:
-                yield Variable(self.text(name), declared, own, initial, self.place(name), kept)
-
-    def type(self, node: Any, name: str) -> Type:
-        if node.type in ("elementary_type", "identifier"):
-            word = self.text(node)
-            if word.upper() in SCALARS:
-                return SCALARS[word.upper()]
-            if word.upper() in self.types:
-                return self.types[word.upper()]
-            if node.type == "elementary_type":
-                raise self.refuse(node, f"type {word} is not supported")
-            return Instance(word)
-        if node.type == "qualified_identifier":
-            space, _, tail = _joined(self.text(node)).rpartition(".")
-            if self.spaces.get(tail.upper(), "").upper() == space.upper():
-                return self.types[tail.upper()]
-            return Instance(f"{space}.{tail}")
-        if node.type == "subrange_type":
-            return self.subrange(node)
-        if node.type == "array_type":
-            element = self.type(self.field(node, "element_type"), "")
-            if _undecided(element):
-                raise self.refuse(node, f"an array of {element.name} is not supported: compilers differ here")
-            for part in reversed([node for node in self.fields(node, "range") if node.type != ","]):
-                low, high = (self.constant(self.field(part, end)) for end in ("lower", "upper"))
-                if not low <= high < low + LONGEST:
-                    raise self.refuse(node, f"an array has 1 to {LONGEST:,} elements, not {low}..{high}")
-                element = Array(low, high, element)
-            return element
-        if node.type == "structure_type_inline":
-            return self.structure(node, name)
-        if node.type == "enumerated_type_inline":
-            return self.enumeration(node, name)
-        raise self.refuse(node)
-
-    def structure(self, node: Any, name: str) -> Struct:
-        """The members in their order with their first values."""
-        members: list[tuple[str, Type, object]] = []
-        for child in self.named(node):
-            if child.type != "structure_field":
-                raise self.refuse(child)
-            kind_node, first = self.field(child, "type"), self.field(child, "name")
-            declared = self.type(kind_node, "")
-            initial = self.initial(
-                self.fields(child, "default"), kind_node.end_byte, declared, self.place(child)
-            )
-            if initial is None and _undecided(declared):
-                raise self.refuse(child, f"{declared.name}: give it a first value; compilers differ here")
-            for own in (self.text(first), *self.apart.also(first.start_byte)):
-                if own.upper() in (other.upper() for other, _, _ in members):
-                    raise self.refuse(child, f"{own} is declared twice")
-                members.append((own, declared, initial))
-        return Struct(name or f"STRUCT at line {node.start_point[0] + 1}", tuple(members))
-
-    def subrange(self, node: Any) -> Scalar:
-        """INT (0..10): a calculation with it is one with INT, and each value that it is given is in range."""
-        word = self.text(self.named(node)[0]).upper()
-        low, high = (self.constant(self.field(node, end)) for end in ("lower", "upper"))
-        base = SCALARS.get(word)
-        if base is None or base.kind != "int":
-            raise self.refuse(node, f"a range of {word} is not supported")
-        if not base.low <= low <= high <= base.high:
-            raise self.refuse(node, f"{low}..{high} is no range of {base.name}")
-        return Scalar(f"{base.name} ({low}..{high})", "int", low, high, base=base)
-
-    def enumeration(self, node: Any, name: str) -> Scalar:
-        """The members in their order, and their numbers where they do not count from 0 by 1."""
-        names: list[str] = []
-        numbers: list[int] = []
-        for member in self.named(node):
-            value = self.field(member, "value")
-            numbers.append(self.constant(value) if value is not None else numbers[-1] + 1 if numbers else 0)
-            names.append(self.text(self.field(member, "name")))
-        if len({one.upper() for one in names}) != len(names) or len(set(numbers)) != len(numbers):
-            raise self.refuse(node, "two members of an enumeration with one name or one number")
-        counted = numbers == list(range(len(names)))
-        return Scalar(
-            name or f"enum at line {node.start_point[0] + 1}",
-            "enum",
-            0,
-            len(names) - 1,
-            tuple(names),
-            () if counted else tuple(numbers),
-        )
-
-    def initial(self, nodes: Sequence[Any], behind: int, declared: Type, place: Place) -> object:
-        """What a variable has at power-up; behind: the byte after its type."""
-        given = self.apart.value(behind)
-        if given is not None:
-            return self.whole(given, declared, place)
-        if not nodes:
-            return None
-        if len(nodes) != 1:
-            raise place.refuse("one initial value is needed")
-        return self.single(nodes[0], declared)
-
-    def whole(self, text: str, declared: Type, place: Place) -> object:
-        """The initial value of an array or a structure, or of a part of one."""
-        if isinstance(declared, Struct) and is_fields(text):
-            found: dict[str, object] = {}
-            for name, value in named(text, place):
-                member = next((one for one in declared.members if one[0].upper() == name.upper()), None)
-                if member is None or name.upper() in found:
-                    cause = "is given twice" if member else f"is no member of {declared.name}"
-                    raise place.refuse(f"initial value: {name} {cause}")
-                if isinstance(member[2], tuple) and not isinstance(member[1], Scalar):
-                    raise place.refuse(f"{name} has first values in its type and here: compilers differ here")
-                found[name.upper()] = self.whole(value, member[1], place)
-            return tuple(found.items())
-        if isinstance(declared, Array) and is_list(text):
-            parts = elements(text, place)
-            if isinstance(declared.element, Array) and not any(map(is_list, parts)):
-                rest = iter(parts)
-                return self.rows(declared, rest, place)
-            if len(parts) > declared.high - declared.low + 1:
-                raise place.refuse("more initial values than the array has elements")
-            return tuple(self.whole(part, declared.element, place) for part in parts)
-        if not isinstance(declared, Scalar):
-            raise place.refuse(f"initial value {' '.join(text.split())[:40]}: no value of {shown(declared)}")
-        head = "\n" * (place.line - 1) + "FUNCTION_BLOCK x x := "
-        root = _PARSER.parse(f"{head}{text}; END_FUNCTION_BLOCK".encode()).root_node
-        nodes = [] if root.has_error else self.fields(self.named(root)[0], "body")
-        if len(nodes) != 1 or nodes[0].type != "assignment_statement":
-            raise place.refuse(f"initial value {' '.join(text.split())[:40]}: a literal is needed here")
-        return self.single(self.field(nodes[0], "right"), declared)
-
-    def rows(self, declared: Array, rest: Iterator[str], place: Place, inner: bool = False) -> object:
-        """An array of several dimensions; the last index counts first."""
-        found: list[object] = []
-        for _ in range(declared.low, declared.high + 1):
-            if isinstance(declared.element, Array):
-                found.append(self.rows(declared.element, rest, place, True))
-            elif (part := next(rest, None)) is not None:
-                found.append(self.whole(part, declared.element, place))
-        if not inner and next(rest, None) is not None:
-            raise place.refuse("more initial values than the array has elements")
-        return tuple(found)
-
-    def single(self, node: Any, declared: Type) -> bool | int:
-        value = self.expression(node)
-        if not isinstance(declared, Scalar):
-            raise self.refuse(node, f"initial value {self.text(node)}: no value of {shown(declared)}")
-        if declared.kind == "enum" and isinstance(value, Name | Member):
-            number = declared.member(value.name)
-            owner = value.of.name if isinstance(value, Member) and isinstance(value.of, Name) else ""
-            if number is None or owner.upper() not in ("", declared.name.upper()):
-                raise self.refuse(node, f"{declared.name} has no {self.text(node)}")
-            return number
-        given = known(value, self.look)
-        if given.type is None and declared.kind == "bool" and given.value in (0, 1):
-            return bool(given.value)
-        fits = declared.kind in ("int", "bits") if given.type is None else given.type.kind == declared.kind
-        if declared.kind == "enum" or not fits or not declared.low <= given.value <= declared.high:
-            raise self.refuse(node, f"initial value {self.text(node)}: no value of {declared.name}")
-        return given.value
-
-
-def _undecided(kind: Type) -> TypeGuard[Scalar]:
-    """Whether a variable of this type needs a first value: one begins at 0, another at the lower bound."""
-    return isinstance(kind, Scalar) and kind.base is not None and kind.low != 0 and kind.start == 0
-
-
-def _joined(text: str) -> str:
-    """A name with namespaces, without blanks."""
-    return "".join(text.split())
+                yield Variable(self.text(name), declared, own, initial, self.place(name), kept, at)

@@ -9,6 +9,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from programs.language.shared_memory import completed
 from programs.language.subset import check
 from programs.semantics.interpreter import Machine
 from tests.programs.fuzz import difference_of_translator, source_of
@@ -64,31 +65,38 @@ def declared(text: str, kind: str = "PROGRAM", section: str = "VAR") -> str:
     return f"{kind} P\n{section} {text} END_VAR\n{outputs}\nq := TRUE;\nEND_{kind}\n"
 
 
+def written(text: str, names: str = "ab") -> str:
+    """A program that writes these of its variables, each with itself."""
+    body = " ".join(f"{name} := {name};" for name in names)
+    return declared(text).replace("q := TRUE;", f"q := TRUE; {body}")
+
+
 @pytest.mark.parametrize(
     ("text", "cause"),
     [
-        (declared("a AT %MX0.0 : BOOL;"), "AT %MX0.0: inputs .* are supported alone"),
+        (declared("a AT %KX0.0 : BOOL;"), "syntax error at"),
+        (declared("a AT %IX0.0.1 : BOOL;"), "with a number or . are supported alone"),
         (declared("a AT %IX0 : BOOL;"), "a bit of a byte is %IX0.0 to %IX0.7"),
         (declared("a AT %IX0.8 : BOOL;"), "a bit of a byte"),
         (declared("a AT %IW0.1 : WORD;"), "a bit of a byte"),
         (declared("a AT %IW0 : BOOL;"), "a variable of 16 bits belongs there, and not BOOL"),
         (declared("a AT %ID0 : INT;"), "a variable of 32 bits belongs there, and not INT"),
         (declared("a AT %IW0 : ARRAY [0..1] OF BOOL;"), "a variable of 16 bits belongs there"),
-        (declared("a AT %IX0.0 : BOOL := TRUE;"), "without a first value"),
+        (declared("a, b AT %IX0.0 : BOOL;"), "one alone, has an address"),
         (declared("a AT %IX0.0 : BOOL;", "FUNCTION_BLOCK"), "in VAR of a PROGRAM"),
         (declared("a AT %IX0.0 : BOOL;", section="VAR_INPUT"), "in VAR of a PROGRAM"),
-        (declared("a AT %QX0.0 : BOOL;", section="VAR RETAIN"), "in VAR of a PROGRAM"),
-        (declared("a AT %IX0.0 : BOOL; b AT %I0.0 : BOOL;"), "b and a share I 0"),
-        (declared("a AT %QW0 : WORD; b AT %QX1.0 : BOOL;"), "b and a share Q 8, counted in bytes"),
-        (declared("a AT %QW0 : WORD; b AT %QW1 : WORD;"), "b and a share Q 8, counted in bytes"),
-        (declared("a AT %QD1 : DWORD; b AT %QW2 : WORD;"), "b and a share Q 16, counted in bytes"),
-        (declared("a AT %QX2.0 : BOOL; b AT %QW2 : WORD;"), "b and a share Q 16, counted in bytes"),
+        (written("a AT %QX0.0 : BOOL; b AT %Q0.0 : BOOL;"), "b and a share Q 0"),
+        (written("a AT %QW0 : WORD; b AT %QX1.0 : BOOL;"), "b and a share Q 8, counted in bytes"),
+        (written("a AT %MW0 : WORD; b AT %MW1 : WORD;"), "b and a share M 8, counted in bytes"),
+        (written("a AT %QD1 : DWORD; b AT %QW2 : WORD;"), "b and a share Q 16, counted in bytes"),
+        (written("a AT %QX2.0 : BOOL; b AT %QW2 : WORD;"), "b and a share Q 16, counted in bytes"),
+        (written("a AT %MX2.0 : BOOL; b AT %MW2 : WORD;", "a"), "b and a share M 16, counted in bytes"),
     ],
 )
 def test_what_has_no_clear_place_is_refused(text: str, cause: str) -> None:
     with pytest.raises(Unjudged, match=cause):
         source = source_of(text)
-        check(source, source.main())
+        completed(source, source.main())
 
 
 def test_an_input_is_not_written() -> None:
@@ -98,10 +106,11 @@ def test_an_input_is_not_written() -> None:
 
 
 def test_addresses_apart_are_taken() -> None:
-    text = declared("a AT %QW0 : WORD; b AT %QW4 : INT; c AT %QX20.7 : BOOL; d AT %IW0 : WORD;")
-    source = source_of(text)
-    check(source, source.main())
-    assert len(source.main().of("output")) == 4
+    text = "a AT %QW0 : WORD; b AT %QW4 : INT; c AT %QX20.7 : BOOL; d AT %IW0 : WORD; e AT %IX0.0 : BOOL;"
+    source = source_of(written(text, "abc"))
+    unit = completed(source, source.main())
+    check(source, unit)
+    assert [*unit.of("output")] == ["a", "b", "c", "q"] and [*unit.of("input")] == ["d", "e"]
 
 
 def test_a_program_has_no_instances() -> None:

@@ -87,13 +87,16 @@ PROJECTS = {
         "b.xml:3: syntax error",
     ),
     "a name that is none": (project(pou(GOOD).replace('name="x"', 'name="x : INT; z"')), "is no name"),
-    "an address": (project(pou(GOOD).replace('name="x"', 'name="x" address="%I0.0"')), "AT: variables"),
-    "a global": (project(pou(GOOD, externalVars="z BOOL")), "<externalVars> in <interface> is not supported"),
+    "an address": (project(pou(GOOD).replace('name="x"', 'name="x" address="%K0.0"')), "syntax error"),
+    "a forged address": (
+        project(pou(GOOD).replace('name="x"', 'name="x" address="%I0.0 : BOOL; y"')),
+        "AT %I0.0 : BOOL; y: no address",
+    ),
     "an in-out": (project(pou(GOOD, inOutVars="z BOOL")), "a block with VAR_IN_OUT, has a body in ST here"),
     "a real number": (project(pou(GOOD, localVars="z REAL")), "type REAL is not supported"),
     "a structure": (
         project(pou(GOOD, "z S"), types='<dataType name="S"><baseType><struct/></baseType></dataType>'),
-        "type struct is not supported",
+        "syntax error",
     ),
     "a block in itself": (
         project(pou(A + block(4, "B", {"a": 1}, "q", 'instanceName="z"') + Q, "z B")),

@@ -166,10 +166,6 @@ def test_a_loop_that_lends_its_variable_is_refused() -> None:
     assert "the loop writes its control variable i" in refusal(LENT + HEAD + body + END)
 
 
-def test_a_program_without_outputs_is_refused() -> None:
-    assert "nothing to compare" in refusal("FUNCTION_BLOCK B\nVAR x : INT; END_VAR x := 1;" + END)
-
-
 def test_a_skipped_statement_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     from programs.readers.structured_text import units as st
 

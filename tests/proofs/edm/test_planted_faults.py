@@ -7,12 +7,10 @@ from dataclasses import replace
 import pytest
 import z3
 
-from modeproof.ground.places import root
-from modeproof.registers import load_document
 from proofs.edm import block_resets, block_response, block_safety, rows, step_paths
 from proofs.edm.devices import BLOCK
 from proofs.edm.invariant import JUDGE
-from tests.proofs.block import Planted, named, wrong_answers
+from tests.proofs.block import Planted, decided, named, wrong_answers
 from tests.proofs.planted_steps import kept, planted
 
 ANYWHERE = rows.FROM_ANYWHERE
@@ -189,7 +187,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
 def test_properties_have_theorems_and_these_have_planted_faults() -> None:
     proved = named(rows, block_safety, block_resets, block_response, step_paths)
     of_activate = {"ErrorOutlivesDeactivation"}  # it holds of whoever drives Activate, not of the block
-    assert proved | of_activate == {one.id for one in load_document(root(), "edm").properties}
+    assert proved | of_activate == decided("edm")
     assert {fault.name for fault in FAULTS} == (proved | {"the invariant"}) - {
         "EveryCallIsAnswered",
         "PowerUpIsSafe",

@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 import z3
 
-from modeproof.ground.places import root
-from modeproof.registers import load_document
 from proofs.guard_locking import (
     block_locks,
     block_losses,
@@ -17,7 +15,7 @@ from proofs.guard_locking import (
 )
 from proofs.guard_locking.devices import BLOCK
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from tests.proofs.block import Planted, named, wrong_answers
+from tests.proofs.block import Planted, decided, named, wrong_answers
 from tests.proofs.planted_steps import kept
 
 ANYWHERE = block_response.FROM_ANYWHERE
@@ -350,7 +348,7 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     proved = named(block_safety, block_losses, block_locks, block_memory, block_response, step_paths)
     assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     not_of_the_block = {"NobodyInMovingZone", "NoMotionBehindOpenDoor", "NobodyShutInByAnError"}
-    known = {one.id for one in load_document(root(), "guard_locking").properties}
+    known = decided("guard_locking")
     assert known - proved == not_of_the_block
 
 

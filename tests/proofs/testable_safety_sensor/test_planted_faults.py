@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 import z3
 
-from modeproof.ground.places import root
-from modeproof.registers import load_document
 from proofs.testable_safety_sensor import (
     rows,
     sensor_answers,
@@ -18,7 +16,7 @@ from proofs.testable_safety_sensor import (
 )
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.sensor_safety import JUDGE
-from tests.proofs.block import Planted, named, wrong_answers
+from tests.proofs.block import Planted, decided, named, wrong_answers
 from tests.refimpl.testable_safety_sensor.printed_rows import ORDER, state_of
 from tests.refimpl.testable_safety_sensor.printed_rows import rows as printed
 
@@ -394,7 +392,7 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     )
     assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     beyond_the_block = {"PersonStopsMachine", "EveryPersonIsShown", "StuckSenderFails", "FailedTestIsMended"}
-    known = {one.id for one in load_document(root(), "testable_safety_sensor").properties}
+    known = decided("testable_safety_sensor")
     assert known - proved == beyond_the_block
 
 

@@ -11,7 +11,7 @@ BLOCK = Block("guard_locking")
 
 def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     readings, tried = BLOCK.readings(), BLOCK.tried()
-    assert len(readings) == 12 and set(tried) == readings
+    assert len(readings) == 13 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
         "ResetSeenOnlyWhileActive",
     ]
