@@ -148,8 +148,8 @@ def _accept(work: Renewal, stale: Stale) -> None:
 
 def _runs_to_check(work: Renewal, stale: Stale) -> Iterator[Run]:
     """If vectors or stories are stale, the specification has changed: every run of lane full and every small
-    one, and those of the stories. If only pinned texts have, the runs that check one of them. A story of a new
-    run has changed nothing.
+    one, and those of the stories. If only pinned texts have, the runs that check one of them. A story of a
+    new run has changed nothing.
     """
     told = known(work.document)
     checked = {pin.removeprefix("checked.") for pin in stale.pins}
