@@ -90,6 +90,8 @@ def _said_of(document: Document, finding: Finding) -> str:
     words = []
     for one in standings(finding, document.runs):
         if one.word == UNASKED:
+            if why := finding.unasked.get(one.reading):
+                words.append(f"`{one.reading}` was not asked, {why}")
             continue
         shown = f"`{one.reading}` is {one.word}"
         if one.word == OPEN:

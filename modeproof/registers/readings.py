@@ -16,6 +16,7 @@ from modeproof.registers.profiles import profile_of
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import ASKING, Run
+from modeproof.registers.standing import UNASKED, standings
 from modeproof.registers.tla import Module, closure
 
 HARMLESS = re.compile(r"\b(?:is|are|as) harmless\b|breaks no property", re.IGNORECASE)
@@ -52,6 +53,7 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
         *_runs(document, modules),
         *_harmless(document, modules),
         *_findings(document, readings),
+        *_unasked(document),
     ]
 
 
@@ -164,6 +166,22 @@ def _findings(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
                 yield Problem(
                     file, finding.id, f"tries {name!r}, but no run in its evidence has this reading"
                 )
+
+
+def _unasked(document: Document) -> Iterator[Problem]:
+    """Where TLC judges demands, each reading is judged by them, or its finding says why it cannot be."""
+    if not any(run.module.endswith(MODULE) for run in document.runs):
+        return
+    for finding in document.findings:
+        asked = {one.reading: one.word != UNASKED for one in standings(finding, document.runs)}
+        for name in sorted(asked.keys() | finding.unasked.keys()):
+            if name not in asked:
+                text = f"unasked: {name!r} is none of its readings"
+            elif asked[name] == (name in finding.unasked):
+                text = f"{name} is asked and has a reason why not" if asked[name] else f"{name} is not asked"
+            else:
+                continue
+            yield Problem(document.source("findings"), finding.id, text)
 
 
 def _idle(document: Document, run: Run, counts: tuple[int | None, int | None]) -> str:

@@ -177,7 +177,8 @@ class Finding(Entry, frozen=True, kw_only=True):
 
     `severity`, its class, is computed from the runs (modeproof.registers.standing), and never typed.
     `tries` are the readings, by the names that they have in the specification, that runs of its evidence try;
-    `parameter` is the constant of the specification that leaves the choice to the project.
+    `parameter` is the constant of the specification that leaves the choice to the project. `unasked` says of
+    a reading why no demand on a device can be asked of it.
     """
 
     id: RowId
@@ -190,6 +191,7 @@ class Finding(Entry, frozen=True, kw_only=True):
     severity: str = ""
     drawing_could_settle: bool
     tries: Texts = ()
+    unasked: dict[str, Text] = msgspec.field(default_factory=dict)
     parameter: str = ""
     evidence: Texts = ()
     evidence_open: str = ""

@@ -52,7 +52,7 @@ from modeproof.tlc.walk_module import (
 
 HEAP_MB = 1024
 """42 traces of one module, most of them with copies of their own, do not fit into half of it."""
-LIMIT_S = 300
+LIMIT_S = 900
 _INTERVAL = re.compile(r"(-?\d+)\.\.(-?\d+)")
 
 

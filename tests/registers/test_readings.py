@@ -127,6 +127,25 @@ def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
     assert (run.distinct, run.generated, run.lanes) == (8, 20, ("full",))
 
 
+def test_where_demands_are_judged_each_reading_is(tried: Any) -> None:
+    tried.write(SPEC + "LatchDemands.tla", "---- MODULE LatchDemands ----\nEXTENDS Latch\n====\n")
+    row = (
+        RUNS.split("[[run]]")[2].replace("_slow", "_demands").replace("base", 'module = "LatchDemands"\nbase')
+    )
+    text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
+    tried.write(SPEC + "runs.toml", f"{text}\n[[run]]{row}")
+    for unasked, expected in (
+        ("", ["Slam is not asked"]),
+        ('Slam = "it is so"', []),
+        ('Slam = "it is so", Slow = "no"', ["Slow is asked and has a reason why not"]),
+        ('Slam = "it is so", Slm = "no"', ["unasked: 'Slm' is none of its readings"]),
+    ):
+        tried.edit(SPEC + "findings.toml", '["Slam", "Slow"]', f'["Slam", "Slow"]\nunasked = {{ {unasked} }}')
+        found = [one for one in tried.problems() if "asked" in one]
+        assert len(found) == len(expected) and all(map(str.__contains__, found, expected)), found
+        tried.edit(SPEC + "findings.toml", f"\nunasked = {{ {unasked} }}", "")
+
+
 def test_a_reading_tried_in_a_live_run_alone_is_told(tried: Any) -> None:
     for file in ("runs", "findings"):
         tried.edit(f"{SPEC}{file}.toml", "MC_Latch_slow", "LIVE_Latch_slow")
