@@ -41,7 +41,7 @@ __path__ = [str(_HOME / "modeproof")]
 '''
 LOCKS = ("requirements.lock", "programs/requirements.lock")
 BASE = (
-    *("z3-solver", "cvc5", "jsonschema", "tomlkit", "msgspec", "jinja2", "argcomplete"),
+    *("z3-solver", "cvc5", "python-sat", "six", "jsonschema", "tomlkit", "msgspec", "jinja2", "argcomplete"),
     *("tree-sitter", "tree-sitter-iec61131-3-st"),
 )
 EXTRAS = {

@@ -6,8 +6,9 @@ sources have changed since it was written last, and after the last call for all 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import msgspec
 
@@ -267,6 +268,43 @@ def observed(watched: Watched) -> Iterator[Statement]:
 
 
 # ---------------------------------------------------------------- as text
+
+
+def with_own_wires(wiring: Wiring) -> Unit:
+    """The program with a name of its own for each signal: properties of a wiring mean its signals, whatever
+    a program has under that name.
+    """
+    made = unit(wiring)
+    new = {name: _free(f"{name}_wire", made.variables) for name in wiring.signals}
+    upper = {name.upper(): own for name, own in new.items()}
+    variables = {
+        upper.get(key, key).upper(): replace(variable, name=upper.get(key, variable.name))
+        for key, variable in made.variables.items()
+    }
+    return replace(made, variables=variables, body=tuple(_renamed(part, new) for part in made.body))
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """A name that nothing has."""
+    while name.upper() in taken:
+        name += "_"
+    return name
+
+
+def _renamed(node: Any, names: Mapping[str, str]) -> Any:
+    """The same with other names; a pin keeps its own."""
+    match node:
+        case Name(name, place):
+            return Name(names.get(name, name), place)
+        case Assign(target, value, place):
+            return Assign(_renamed(target, names), _renamed(value, names), place)
+        case Unary(operator, operand, place):
+            return Unary(operator, _renamed(operand, names), place)
+        case Binary(operator, left, right, place):
+            return Binary(operator, _renamed(left, names), _renamed(right, names), place)
+        case Call():
+            return replace(node, inputs=tuple((pin, _renamed(value, names)) for pin, value in node.inputs))
+    return node
 
 
 def text_of(made: Unit, comment: str = "") -> str:

@@ -293,6 +293,22 @@ class Runner:
             size //= 2
         return self._calmer(kept, rule, tries)
 
+    def calmed(self, scans: Sequence[Scan], rule: Rule, tries: int) -> list[Scan]:
+        """As many scans that break the property too: usual times, and inputs that rest where they may."""
+        kept, cycle = list(scans), self.wiring.table.cycle_ms
+        for name, kind in self.cell.inputs.items():
+            rest = self.use.rest.get(name, kind == "WORD" and 0)
+            for value in dict.fromkeys((rest, kept[-1][1][name])):
+                trial: list[Scan] = [(dt_ms, {**inputs, name: value}) for dt_ms, inputs in kept]
+                tries -= 1
+                if self.broken(trial, rule) == len(kept):
+                    kept = trial
+                    break
+        usual: list[Scan] = [(cycle, inputs) for _, inputs in kept]
+        if self.broken(usual, rule) == len(kept):
+            kept = usual
+        return self._calmer(kept, rule, tries)
+
     def _calmer(self, scans: list[Scan], rule: Rule, tries: int) -> list[Scan]:
         """The same scans with each input left as it was in the scan before, wherever that breaks it too."""
         for name in self.cell.inputs:

@@ -1,4 +1,4 @@
-"""What the questions leave out: an output that none of them is about, an input that nothing reads.
+"""What the questions leave out: an output or a device that none is about, an input that nothing reads.
 
 Wired without effect, or with an effect that nobody asked about, both pass in silence: a forgotten emergency
 stop, a second drive. A file of properties may say why, by name, in its table `unasked`.
@@ -48,6 +48,15 @@ def unasked(wiring: Wiring, watched: Watched, questions: Questions) -> Iterator[
             yield name
 
 
+def unasked_blocks(wiring: Wiring, watched: Watched, questions: Questions) -> Iterator[str]:
+    """The documents' blocks of which no property names a pin: a second door, a second switch."""
+    place = wiring.place("block")
+    texts = [row[key] for row in questions.rows for key in EXPRESSIONS if isinstance(row.get(key), str)]
+    texts += [text for seen in watched.rows.values() for text in seen.inputs.values()]
+    said = {name.upper() for text in texts for name in names(parsed(text, place))}
+    yield from (name for name, of in wiring.kinds.items() if of.unit is not None and name.upper() not in said)
+
+
 def _shown(leaf: Name | Member) -> str:
     if isinstance(leaf, Member):
         return f"{leaf.of.name if isinstance(leaf.of, Name) else ''}.{leaf.name}".upper()
@@ -59,7 +68,7 @@ def excused(questions: Questions, wiring: Wiring, strictly: bool) -> Mapping[str
     rows = questions.tables.get(TABLE, {})
     if not isinstance(rows, dict):
         raise Unjudged(f"{questions.file}: [{TABLE}] is a table of names, each with its reason")
-    known = [*wiring.table.inputs, *wiring.table.outputs]
+    known = [*wiring.table.inputs, *wiring.table.outputs, *wiring.table.block]
     for name, why in rows.items():
         if not isinstance(why, str) or not why.strip():
             raise Unjudged(f"{questions.file}: {TABLE}.{name}: say why nothing is asked about it")

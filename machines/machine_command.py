@@ -17,7 +17,7 @@ from typing import Any
 from machines import flowchart as machine_picture
 from machines import tlc_runs as machine_tlc
 from machines import vectors as machine_vectors
-from machines.composed_program import text_of, unit
+from machines.composed_program import text_of, with_own_wires
 from machines.concrete_runs import Scan
 from machines.equality import Equality
 from machines.killers import Killers, changed, read_killers
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     file = _file(args)
     wiring = read_wiring(file)
     if args.program is not None:
-        write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
+        write_text(args.program, text_of(with_own_wires(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
     machine = _machine(args, progress)
@@ -211,6 +211,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
         yield f"  assumed     {'; '.join(choices)}"
     for verdict in found:
         yield from _verdict(machine, verdict)
+    for why in dict.fromkeys(machine.not_asked.values()):
+        yield f"  not asked   {', '.join(id for id, own in machine.not_asked.items() if own == why)}: {why}"
     words = [verdict.word for verdict in found]
     seen = (*WORDS[:3], *(word for word in WORDS[3:] if word in words))
     counts = [f"{words.count(word)} {word}" for word in seen]
@@ -293,6 +295,7 @@ def record_of(
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),
         "verdicts": verdict_rows(found),
+        "not_asked": dict(machine.not_asked),
         "cpu_seconds": round(seconds, 1),
     }
 

@@ -65,6 +65,7 @@ def outcome_of(
             "what no property names",
             "what the compiler, the PLC and the devices make of the wiring",
             *(f"{one.asked.id}: {one.how}" for one in found if one.word in ("NOT JUDGED", "NOT ASKED")),
+            *(f"{id}: not asked, {why}" for id, why in machine.not_asked.items()),
         ],
         text=text,
         again=again,

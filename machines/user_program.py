@@ -102,7 +102,7 @@ class ProgramMachine(Machine):
         found = self.source.main() if self.unit is None else self.source.find(self.unit)
         if found is None:
             raise Unjudged(f"{', '.join(map(str, self.sources))}: no unit {self.unit!r}")
-        found = completed(self.source, found)
+        found = completed(blocks.with_blocks(self.source), found)
         _check(found, self.wiring, self.source.units)
         return found
 

@@ -1,42 +1,37 @@
 """Judges a machine: what must be true after every scan, of the blocks as a wiring file joins them.
 
-First runs with plain values, which look for scans that break a property. For the rest an invariant is found
-from the same runs, over the composed program as terms; z3 then shows that it holds at power-up, survives
-every scan, and leaves no scan that breaks the property. So PROVED is for every input, for ever.
+First the fewest scans that break a property are looked for, of all inputs and scan times. For the rest an
+invariant is found from runs with plain values, over the composed program as terms; z3 then shows that it
+holds at power-up, survives every scan, and leaves no scan that breaks the property. So PROVED is for every
+input, for ever. What is neither found nor proved is looked for in more scans.
 """
 
 from __future__ import annotations
 
 import random
 import time
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import z3
 
+from machines.asking import Asking
 from machines.candidate_invariants import Candidates, Sample, sample_of, state_of
-from machines.composed_program import Observer, Watched, cell_of, looked, spelled
+from machines.causes import mended
+from machines.composed_program import cell_of
 from machines.concrete_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
-from machines.coverage import TABLE, excused, unasked, unread
-from machines.missing_names import EXPRESSIONS, lacking, observers_lacking
-from machines.wiring import Wiring, wiring_of
-from modeproof.ground.errors import Unjudged
-from modeproof.registers.typed import rows_of, typed
+from machines.coverage import excused, unasked, unasked_blocks, unread
+from machines.search import DEEPER, DEEPER_S, FIRST_S, Search, trigger
 from programs.certificates.certificate_folder import Obligation
 from programs.certificates.recheck import SOLVERS
 from programs.invariants.induction import System, conjuncts, is_inductive, named
-from programs.properties.property_file import Beside, Questions, read_questions, words_of
+from programs.properties.property_file import words_of
 from programs.properties.property_verdicts import SAYS_NOTHING, Judgement
 from programs.properties.transition_system import Asked, Cell
-from refimpl.errors import ParameterError
 from refimpl.machine_cell import cell as reference
 
-BESIDE = {"hazard": str, "cites": list}
-"""What a property of a machine has besides."""
 RUNS = 260
 TRIES = 250
 """Runs that may be made to shorten one counterexample."""
@@ -64,19 +59,13 @@ class Verdict:
 
 
 @dataclass
-class Machine:
-    """A wiring with the properties that are asked of it and the file that says how it is used."""
+class Machine(Asking):
+    """Judges the properties that are asked of a wiring."""
 
-    text: str
-    file: str
-    properties: Path
-    use: Path
     tell: Callable[[str], None] = field(default=lambda text: None)
     runs: int = RUNS
     triggers: Sequence[Sequence[str]] | None = None
     """The texts of what must occur for each property, where they are known; they come from the terms."""
-    leave_out: bool = False
-    """A property that names what the wiring has not is NOT JUDGED; else the file is refused."""
     tries: int = TRIES
     leaves: bool = False
     """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
@@ -85,62 +74,6 @@ class Machine:
     def files(self) -> Mapping[str, str]:
         """The files of a program of one's own, with their SHA-256."""
         return {}
-
-    @cached_property
-    def wiring(self) -> Wiring:
-        """The wiring, looked through. Raises Unjudged."""
-        return wiring_of(self.text, self.file)
-
-    @cached_property
-    def table(self) -> Mapping[str, Any]:
-        """The same as plain tables."""
-        return tomllib.loads(self.text)
-
-    @cached_property
-    def every(self) -> Questions:
-        """The file of properties. Raises Unjudged."""
-        return read_questions(self.properties, Beside(BESIDE, ("observer", TABLE), self.wiring.table.scan_ms))
-
-    @cached_property
-    def lacking(self) -> Mapping[str, str]:
-        """By property that is not judged the name that the wiring has not. Raises Unjudged."""
-        return lacking(self.wiring, self.observers, self.every) if self.leave_out else {}
-
-    @cached_property
-    def questions(self) -> Questions:
-        """The properties that are judged, in the spelling of the wiring. Raises Unjudged."""
-        rows = tuple(self.spelled(row) for row in self.every.rows if row["id"] not in self.lacking)
-        return replace(self.every, rows=rows)
-
-    def spelled(self, row: Mapping[str, Any]) -> Mapping[str, Any]:
-        """A property in the spelling of the wiring. Raises Unjudged: what no property of a machine has."""
-        if self.every.file != str(self.properties):
-            return row  # a question that was made, not read
-        place = self.every.place(row)
-        texts = {
-            key: spelled(self.wiring, self.watched, row[key], place, f"{row['id']}: {key}")
-            for key in EXPRESSIONS
-            if key in row
-        }
-        return {**row, **texts}
-
-    @cached_property
-    def observers(self) -> Watched:
-        """The observers of the file. Raises Unjudged."""
-        lines = {row: number for number, row in rows_of(self.every.text)}
-        rows = self.every.tables.get("observer", {})
-        if not isinstance(rows, dict):
-            raise Unjudged(f"{self.properties}: [observer] is a table")
-        made = Watched(str(self.properties), {}, lines)
-        told = {name: f"{made.file}:{made.place(name).line}: observer.{name}" for name in rows}
-        return replace(made, rows={name: typed(Observer, row, told[name]) for name, row in rows.items()})
-
-    @cached_property
-    def watched(self) -> Watched:
-        """Those that the cell can have, in the spelling of the wiring. Raises Unjudged."""
-        lost = observers_lacking(self.wiring, self.observers) if self.leave_out else {}
-        rows = {name: row for name, row in self.observers.rows.items() if name not in lost}
-        return looked(self.wiring, replace(self.observers, rows=rows))
 
     @cached_property
     def cell(self) -> Cell:
@@ -190,9 +123,24 @@ class Machine:
         return {asked.id: self.judgement.bad(asked) for asked in self.asked}
 
     @cached_property
+    def occurs(self) -> dict[tuple[str, int], z3.BoolRef]:
+        """For each trigger of a property the scans after which it is true."""
+        return {
+            (asked.id, number): self.judgement.occurs(tree)
+            for asked in self.asked
+            for number, (_, tree) in enumerate(asked.trigger)
+        }
+
+    @cached_property
     def system(self) -> System:
         """One scan, without what no property depends on."""
-        return self.judgement.system.cone(*self.bad.values())
+        return self.judgement.system.cone(*self.bad.values(), *self.occurs.values())
+
+    @cached_property
+    def search(self) -> Search:
+        """What looks for the fewest scans to the breach of a property, and to its triggers."""
+        targets = self.bad | {trigger(*key): term for key, term in self.occurs.items()}
+        return Search(self.system, targets, self.wiring.table.inputs)
 
     def lemmas(self, seconds: float) -> list[z3.BoolRef]:
         """Invariants, found from the runs. seconds: of CPU; then there are none."""
@@ -233,19 +181,23 @@ class Machine:
 
     def shown(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> dict[str, bool]:
         """Which properties follow from invariants; these are asked anew, in a solver of their own."""
+        return self.never(lemmas, {one.id: self.bad[one.id] for one in asked})
+
+    def never(self, lemmas: Sequence[z3.BoolRef], terms: Mapping[str, z3.BoolRef]) -> dict[str, bool]:
+        """Which of these are never true, as far as invariants show it."""
         try:
             if not is_inductive(self.system, lemmas):
-                return {one.id: False for one in asked}
+                return dict.fromkeys(terms, False)
         except TimeoutError:
-            return {one.id: False for one in asked}
+            return dict.fromkeys(terms, False)
         solver = z3.Solver()
         solver.set("timeout", LIMIT_MS)
         solver.add(self.system.within, self.system.assumed, *lemmas)
         self.leaves = solver.check(z3.Not(self.system.inside)) != z3.unsat
         if self.leaves:
-            return {one.id: False for one in asked}
+            return dict.fromkeys(terms, False)
         solver.add(self.system.inside)
-        return {one.id: solver.check(self.bad[one.id]) == z3.unsat for one in asked}
+        return {name: solver.check(term) == z3.unsat for name, term in terms.items()}
 
     def questions_again(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> list[Obligation]:
         """The proof as SMT-LIB for another solver; every answer is `unsat`. The search is not in it."""
@@ -282,10 +234,14 @@ class Machine:
         recheck: z3 and cvc5 judge the proof again, from its text alone.
         """
         assert self.asked is not None  # a refusal comes before any work
-        left = [asked for asked in self.asked if asked.id not in self.seen.broken]
+        self.tell("search")
+        self.search.look([asked.id for asked in self.asked], FIRST_S)
+        left = [asked for asked in self.asked if not self.broken(asked.id)]
+        self.reach(left)
         lemmas = self.lemmas(seconds) if left else []
         holds = self.shown(lemmas, left) if left else {}
         against = self.again(lemmas, [one for one in left if holds[one.id]]) if recheck and left else ""
+        self.look_deeper([one for one in self.asked if not holds.get(one.id)])
         proof = f"an invariant of {len(lemmas)} clauses{', judged again by z3 and cvc5' * recheck}"
         found = []
         for row in self.every.rows:
@@ -293,30 +249,103 @@ class Machine:
                 asked = Asked(row["id"], row["sentence"], words_of(row), None)
                 found.append(Verdict(asked, row, "NOT JUDGED", f"the wiring has no {lost!r}"))
         for asked, row, rule in zip(self.asked, self.questions.rows, self.rules, strict=True):
-            reached = self.seen.reached[asked.id]
-            if asked.id in self.seen.broken:
-                self.tell(f"scans that break {asked.id}")
-                scans = self.runner.shortened(self.seen.broken[asked.id], rule, self.tries)
-                mended = list(self.mended(scans, row, own)) if own is not None else []
-                how = f"{len(scans)} scans, the shortest that were found"
-                found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
+            reached = self.reached(asked)
+            if scans := self.broken(asked.id):
+                found.append(self.refuted(asked, row, rule, scans, own))
             elif not holds[asked.id]:
                 why = "a value may leave its type" if self.leaves else "no invariant was found"
-                how = f"{why}, and nothing breaks it in {self.seen.scans:,} scans of runs"
-                found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+                found.append(Verdict(asked, row, "UNKNOWN", f"{why}; {self.looked(asked.id)}", reached))
             elif against:
                 how = f"the proof is not confirmed: {against}"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             elif self.cell.says_nothing(asked):
                 found.append(Verdict(asked, row, "EMPTY", SAYS_NOTHING, reached))
             elif None in reached:
-                text = asked.trigger[list(reached).index(None)][0]
-                how = f"it follows, but `{text}` was never true in {self.seen.scans:,} scans"
-                found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+                found.append(self.idle(asked, row, lemmas, reached))
             else:
                 found.append(Verdict(asked, row, "PROVED", proof, reached))
         order = [row["id"] for row in self.every.rows]
         return [*sorted(found, key=lambda verdict: order.index(verdict.asked.id)), *self.left_out()]
+
+    def broken(self, id: str) -> list[Scan] | None:
+        """The fewest scans that are known to break a property."""
+        return self.search.scans(id) or self.seen.broken.get(id)
+
+    def looked(self, name: str) -> str:
+        """In how many scans something was looked for."""
+        return f"none in {self.search.clean(name)} scans, all inputs and scan times"
+
+    def look_deeper(self, asked: Sequence[Asked]) -> None:
+        """Look in more scans for what is neither found nor proved, and for fewer scans than runs needed."""
+        known = {one.id: len(self.seen.broken.get(one.id, ())) for one in asked}
+        wanted = [id for id in known if self.search.scans(id) is None]
+        until = time.process_time() + DEEPER_S
+        for most in (*sorted({known[id] - 1 for id in wanted if known[id]}), DEEPER):
+            some = [id for id in wanted if known[id] > most or not known[id]]
+            if some and (rest := until - time.process_time()) > 0:
+                self.tell(f"{len(some)} not proved: search in more scans")
+                self.search.look(some, rest, most)
+
+    def reach(self, asked: Sequence[Asked]) -> None:
+        """Look for scans to what no run has reached; they are samples then."""
+        missed = [
+            trigger(one.id, number)
+            for one in asked
+            for number, scans in enumerate(self.seen.reached[one.id])
+            if scans is None
+        ]
+        if missed:
+            self.tell(f"search for {len(missed)} situations")
+            self.search.look(missed, FIRST_S)
+
+    def reached(self, asked: Asked) -> list[int | None]:
+        """For each trigger of a property the scans after which it was true, in a run or found by search."""
+        found = list(self.seen.reached[asked.id])
+        rule = self.rules[[one.id for one in self.asked].index(asked.id)]
+        for number, scans in enumerate(found):
+            way = self.search.scans(trigger(asked.id, number)) if scans is None else None
+            if way and rule.triggers[number]([*self.runner.replayed(way)][-1]):
+                found[number] = len(way)
+        return found
+
+    def refuted(
+        self,
+        asked: Asked,
+        row: Mapping[str, Any],
+        rule: Rule,
+        scans: Sequence[Scan],
+        own: Mapping[str, Any] | None,
+    ) -> Verdict:
+        """The verdict on scans that break a property, if they do when the composed reference runs them."""
+        self.tell(f"scans that break {asked.id}")
+        reached, clean = self.reached(asked), self.search.clean(asked.id)
+        if self.runner.broken(scans, rule) is None:
+            how = f"the {len(scans)} scans that were found do not break it when they are run"
+            return Verdict(asked, row, "UNKNOWN", how, reached)
+        if self.search.scans(asked.id) is None:
+            scans = self.runner.shortened(scans, rule, self.tries)
+        else:
+            scans = self.runner.calmed(scans, rule, self.tries)
+        fewest = clean == len(scans) - 1
+        less = "no fewer do" if fewest else f"none in {clean} scans"
+        how = f"{len(scans)} scans: {less}, whatever inputs and scan times"
+        wires = [] if own is None else list(mended(self.runner, self.table, scans, row, own))
+        return Verdict(asked, row, "REFUTED", how, reached, scans, wires)
+
+    def idle(
+        self,
+        asked: Asked,
+        row: Mapping[str, Any],
+        lemmas: Sequence[z3.BoolRef],
+        reached: Sequence[int | None],
+    ) -> Verdict:
+        """The verdict on what follows, but was never seen to matter."""
+        number = list(reached).index(None)
+        text, name = asked.trigger[number][0], trigger(asked.id, number)
+        if self.never(lemmas, {name: self.occurs[asked.id, number]})[name]:
+            return Verdict(asked, row, "EMPTY", f"`{text}` can never be true, so it says nothing", reached)
+        how = f"it follows, but nothing was seen to make `{text}` true: {self.looked(name)}"
+        return Verdict(asked, row, "UNKNOWN", how, reached)
 
     def left_out(self) -> Iterator[Verdict]:
         """An output that no property is about, an input that nothing reads, if the file does not say why."""
@@ -324,6 +353,9 @@ class Machine:
         lost = [(f"input {name}", "has an effect", "nothing reads it") for name in self.unread]
         outputs = unasked(self.wiring, self.watched, self.questions)
         lost += [(f"output {name}", "is in a question", "no property is about it") for name in outputs]
+        if self.leave_out:  # our own questions are about each device
+            blocks = unasked_blocks(self.wiring, self.watched, self.questions)
+            lost += [(f"block {name}", "is in a question", "no property names it") for name in blocks]
         for id, sentence, how in lost:
             if id.split()[1] not in reasons:
                 row = {"hazard": "What it does, or should do, was not looked at.", "cites": []}
@@ -333,18 +365,6 @@ class Machine:
     def unread(self) -> Iterator[str]:
         """The inputs that nothing reads."""
         return unread(self.wiring)
-
-    def mended(self, scans: Sequence[Scan], row: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[str]:
-        """The rows that are not as in `own`, and with whose text there the scans break nothing."""
-        for path, there in differences(self.table, own):
-            table = with_row(self.table, path, there)
-            try:
-                runner = Runner.of(self.wiring, self.watched, self.runner.use, table)
-                if runner.broken(scans, rule_of(row, [], runner.named)) is None:
-                    here = f"{self.file}:{self.wiring.place(path).line}: {path}"
-                    yield f"{here}; with {there!r}, as in the project's own, these scans break nothing"
-            except (Unjudged, ParameterError, KeyError):
-                continue
 
 
 def _owed(file: str, known: Sequence[z3.BoolRef], follow: Sequence[z3.BoolRef]) -> Obligation:
@@ -359,23 +379,3 @@ def _owed(file: str, known: Sequence[z3.BoolRef], follow: Sequence[z3.BoolRef]) 
     for part in follow:
         lines.append(f"(push 1)\n(assert (not {part.sexpr()}))\n(check-sat)\n(pop 1)\n")
     return Obligation(file, "".join(lines), len(follow))
-
-
-def differences(
-    table: Mapping[str, Any], own: Mapping[str, Any], above: str = ""
-) -> Iterator[tuple[str, Any]]:
-    """The rows of `table` that stand otherwise in `own`, with their value there."""
-    for key, value in table.items():
-        path = f"{above}{key}"
-        if key not in own or key in ("why", "title", "from", "to"):
-            continue
-        if isinstance(value, dict) and isinstance(own[key], dict):
-            yield from differences(value, own[key], f"{path}.")
-        elif value != own[key]:
-            yield path, own[key]
-
-
-def with_row(table: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
-    """The tables with another value in one row."""
-    head, _, rest = path.partition(".")
-    return {**table, head: with_row(table[head], rest, value) if rest else value}

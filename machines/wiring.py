@@ -105,6 +105,8 @@ class Table(Entry, frozen=True, kw_only=True):
     matrix: dict[str, Sets]
     outputs: dict[str, Output]
     signals: dict[str, Wire] = msgspec.field(default_factory=dict)
+    roles: dict[str, Text] = msgspec.field(default_factory=dict)
+    """Who plays a role of the properties, where it has another name here."""
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
     ):
         if value != usual:
             words.append(f"--{name} {value}")
-    words += ["--same"] * bool(args.same)
+    words += ["--same"] * bool(args.same) + ["--flips"] * bool(args.flips)
     words += [f"--param {quoted(text)}" for text in args.param]
     if args.profile not in (None, LETTER):
         words.append(f"--profile {args.profile}")

@@ -15,6 +15,9 @@ in this scan and as many before it as the program may need to show what its inpu
 0). A demand `holds` in every scan in which its `when` does; or what it asks for `comes`: as long as `when`
 stays true, at the latest `latency` scans after the first of them.
 
+Beside them, `"constant": {"ON": ["TOY-2"]}` has the inputs that the document calls constant, each with the
+clauses that do.
+
 An expression is one in Python's notation, of: and or not, comparisons, in, + and -, `x if c else y`, lists,
 list[number], and the functions count index len max min sum. Names: inputs, outputs, parameters, `was_NAME`
 for an input or output in the scan before (0, false, or none before the first), constants, rules that are
@@ -124,6 +127,8 @@ class Demands:
     constants: Mapping[str, Any]
     rules: tuple[Rule, ...]
     rows: tuple[Demand, ...]
+    constant: tuple[str, ...] = ()
+    """The inputs that the document calls constant."""
 
 
 def read_demands(
@@ -164,11 +169,14 @@ def read_demands(
             rest = _rest(when.names | holds.names, rests_on)
             clauses = tuple(row["clauses"])
             demands.append(Demand(row["id"], row["says"], clauses, when, holds, rest, asked == "comes"))
+        steady = tuple(table.get("constant", ()))
     except (KeyError, TypeError, AttributeError) as error:
         raise Unjudged(f"{place}: {type(error).__name__} {error}") from None
+    if strange := [name for name in steady if name not in inputs]:
+        raise Unjudged(f"{place}: constant: no input {strange[0]}")
     if not demands:
         raise Unjudged(f"{place}: no demand, so nothing is judged")
-    return Demands(inputs, outputs, parameters, constants, tuple(rules), tuple(demands))
+    return Demands(inputs, outputs, parameters, constants, tuple(rules), tuple(demands), steady)
 
 
 def _rest(names: Iterable[str], rests_on: Mapping[str, frozenset[str]]) -> frozenset[str]:

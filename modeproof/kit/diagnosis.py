@@ -43,7 +43,7 @@ def unseen(suite: Suite, found: Difference) -> tuple[str, ...]:
     first = at
     while first and scans[first - 1].request is None and not _shows(scans, first - 1):
         first -= 1
-    names = [suite.steps[scans[n].step].name for n in range(max(0, first - 1), at)]
+    names = [suite.steps[scans[n].step].name for n in range(max(0, first - 1), at) if scans[n].to >= 0]
     return tuple(name for name in dict.fromkeys(names) if name not in found.step.split(" > "))
 
 

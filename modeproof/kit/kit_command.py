@@ -91,6 +91,9 @@ def add_parser(
         help="the exit status asks for equality with the reference, too, and not only for what is demanded",
     )
     parser.add_argument(
+        "--flips", action="store_true", help="by the page, too, inputs that it calls constant may change"
+    )
+    parser.add_argument(
         "--latency", type=_count, metavar="N", help="scans that an input may need (default: as hello says)"
     )
     parser.add_argument(
@@ -334,6 +337,7 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
         starter(args, suite),
         plan,
         args.same,
+        flips=args.flips,
         page={"on_progress": _now_and_then(progress), "on_difference": first},
         on_progress=_now_and_then(progress),
         on_difference=first,
@@ -351,7 +355,10 @@ def _identity(args: argparse.Namespace) -> dict[str, Any]:
     return {
         "program": program_words(args),
         "files": identity([*words, *([str(args.map)] if args.map else [])]) | package_files(args.builtin),
-        **{name: getattr(args, name) for name in ("relation", "latency", "hold", "slow", "codes", "param")},
+        **{
+            name: getattr(args, name)
+            for name in ("relation", "latency", "hold", "slow", "codes", "param", "flips")
+        },
         "profile": profile_of(args),
     }
 

@@ -34,6 +34,8 @@ PATIENCE = 24
 """Scans for which a row is held then, for each scan that a program may take."""
 STABLE = 2
 """Scans for which settled outputs must stay."""
+STILL, LASTING = "still", "lasting"
+"""How time goes while rows are held patiently: after the first row it stands still, or it goes on."""
 MOST_LATENCY = 10_000
 _REMEMBERED = 20_000
 
@@ -113,7 +115,6 @@ class Session:
         self.scans = 0
         self.patient = False
         self._patience = PATIENT_SCANS
-        self._hold, self._lasting, self._patient = self.latency, False, False
         self._good: set[bytes] = set()
         self._kept: dict[int, Any] = {}
         self._keeps = bool(getattr(program, "keeps_answers", False))
@@ -138,7 +139,7 @@ class Session:
         if self.options.relation == EXACT:
             failure = self._exact(case)
         elif self.options.relation == SETTLED or self.latency:
-            failure = self._settled(case)
+            failure = self._settled(case, self.latency)
         else:
             failure = self._watched(case)
             if failure is None and case.reset and not case.requests and (self.patient or self._patience > 0):
@@ -258,20 +259,19 @@ class Session:
         """By the page once more, each row of inputs held: while time stands still after the first, and while
         it goes on.
         """
-        scans, self._hold, failure = self.scans, PATIENCE * max(1, self.granted), None
-        self._patient = True
-        for self._lasting in (False, True):
+        scans, failure = self.scans, None
+        for pace in (STILL, LASTING):
             self.program.reset(self._slowed(case.params))
             if self.watch is not None:
                 self.watch.reset(self._slowed(case.params))
-            failure = failure or self._settled(case)
+            failure = failure or self._settled(case, PATIENCE * max(1, self.granted), pace)
         self._patience -= self.scans - scans
-        self._hold, self._lasting, self._patient = self.latency, False, False
         return failure
 
     # ------------------------------------------------------------------------------------------ settled
 
-    def _settled(self, case: Case) -> Failure | None:
+    def _settled(self, case: Case, hold: int, pace: str = "") -> Failure | None:
+        """Each change of inputs held for so many scans, or as many as the case has, and some more."""
         before: Mapping[str, Any] | None = None
         clock = _Clock(case, self.options) if self.hello.real_time else None
         for first, last in groups(case):
@@ -280,8 +280,8 @@ class Session:
             for row in (*((before,) if before else ()), *(s.outputs for s in case.scans[first : last + 1])):
                 for name, values in allowed.items():
                     values.append(row[name])
-            held = max(self._hold, last - first) + STABLE
-            times = self._times(case, first, last, held)
+            held = max(hold, last - first) + STABLE
+            times = self._times(case, first, last, held, pace)
             for after, out in enumerate(self._held(case.id, first, event, times)):
                 failure = self._passing(last, event, out, allowed, wanted, after, times[after])
                 if failure is None and after > held - STABLE and _differ(out, wanted, self.compared):
@@ -296,13 +296,14 @@ class Session:
                 clock.check(sum(scan.dt_ms for scan in case.scans[first : last + 1]))
         return None
 
-    def _times(self, case: Case, first: int, last: int, held: int) -> list[int]:
+    def _times(self, case: Case, first: int, last: int, held: int, pace: str) -> list[int]:
         """The times of an event and of the scans in which its inputs are held: those of the case, as far as
         it has some, for in them something may happen by its time.
         """
-        still = self._patient and not self._lasting and first > 0
-        own = [0 if still else scan.dt_ms * self.options.slow for scan in case.scans[first : last + 1]]
-        rest = own[0] if self._lasting or (self._patient and not first) else self.options.hold_ms
+        own = [scan.dt_ms * self.options.slow for scan in case.scans[first : last + 1]]
+        if pace == STILL and first > 0:
+            own = [0] * len(own)
+        rest = own[0] if pace == LASTING or (pace == STILL and not first) else self.options.hold_ms
         held_for = [ms or rest for ms in own[1:]]
         return [own[0], *held_for, *[rest] * (held - len(held_for))]
 

@@ -197,10 +197,11 @@ class _Run:
     def _never_put(self) -> str:
         """Demands that this suite puts to the reference, and that were never put to this program."""
         missing = {name for name, count in self.verdict.properties.items() if not count}
-        if self.watch is not None and (due := {one.id for one in self.watch.judged if one.comes}):
-            missing &= due  # a program that does nothing breaks one of those, and keeps each `only if`
-        if missing and self.watch is not None and len(missing) < len(self.verdict.properties):
-            for _, case in self._cases():
+        assert self.watch is not None
+        if len(missing) < len(self.verdict.properties):
+            if due := {one.id for one in self.watch.judged if one.comes}:
+                missing &= due  # a program that does nothing breaks one of those, and keeps each `only if`
+            for _, case in self._cases() if missing else ():
                 self.watch.reset(case.params)
                 for scan in case.scans:
                     if scan.request is None:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import IO, Any
 from xml.sax.saxutils import escape, quoteattr
 
+from modeproof.kit.constants import changing, constant_inputs
 from modeproof.kit.diagnosis import step_there, unseen
 from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.files import write_json as write_json
@@ -135,6 +136,8 @@ def _word(verdicts: Sequence[Verdict]) -> str:
         judged = known - {name for verdict in verdicts for name in verdict.unjudged}
         count = f"{len(known)}" if judged == known else f"{len(judged)} of {len(known)}"
         notes = [f"{count} demands, {suites}; within {first.latency} {scans}"]
+        if first.constant:
+            notes.append(f"{', '.join(first.constant)} constant, as the page has it")
     else:
         notes = [f"{first.relation}, {suites}"]
     if first.profile and first.word != FOLLOWS:
@@ -233,6 +236,9 @@ def difference_lines(found: Difference, suite: Suite | None = None, way: bool = 
         )
     elif not found.broken and found.clauses:
         lines.append("differs from the reference")
+    if suite is not None and not found.broken:
+        steady = ", ".join(changing(constant_inputs(suite), found.shortest.scans))
+        lines += [f"here     {steady} changes, which the page calls constant"] * bool(steady)
     if found.reading:
         lines.append(f"reading: {found.reading}")
     if suite is not None:
@@ -306,6 +312,7 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "cases": verdict.cases,
         "cases_total": verdict.cases_total,
         "only": verdict.only,
+        "constant": list(verdict.constant),
         "profile": verdict.profile,
         "params": list(verdict.params),
         "cases_of_an_earlier_run": verdict.earlier,

@@ -99,7 +99,7 @@ class Verdict:
     compared and the requests that were refused, `outputs` the outputs that were compared and all; `earlier`
     cases passed in an earlier run. A transition is covered only if a compared output shows it. `page` is what
     the same cases say of the demands of the document, `same` whether equality with the reference was asked
-    for besides.
+    for besides; `constant` the inputs that were held because the document calls them constant.
     """
 
     word: str
@@ -132,6 +132,7 @@ class Verdict:
     reason: str = ""
     page: Verdict | None = None
     same: bool = False
+    constant: tuple[str, ...] = ()
 
     @property
     def judged(self) -> Sequence[Verdict]:

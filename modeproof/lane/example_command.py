@@ -11,7 +11,7 @@ from modeproof.ground.errors import EXIT_AS_EXPECTED, Unjudged, suggestion
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import machines, root
 
-FOLDERS = ("st", "logs")
+FOLDERS = ("st", "logs", "machines")
 KINDS = {".st", ".scl", ".csv", ".jsonl", ".toml"}
 MACHINE = ("wiring.toml", "safety.toml", "use.toml")
 

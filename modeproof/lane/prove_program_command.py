@@ -38,6 +38,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--codes", action="store_true", help="with outputs that no page prints (codes of ours); means --same"
     )
+    parser.add_argument(
+        "--flips", action="store_true", help="inputs that the page calls constant may change during a run"
+    )
     parser.add_argument("--latency", type=int, metavar="N", help="scans that a reaction may take (1)")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
@@ -100,6 +103,7 @@ def about(args: argparse.Namespace) -> About:
     if args.latency is not None:
         words += ["--latency", args.latency]
     words += ["--same"] * (args.same and not args.codes) + ["--codes"] * args.codes + ["--wrap"] * args.wrap
+    words += ["--flips"] * args.flips
     return About(
         command="prove-program",
         subject=", ".join(map(shown_path, args.files)),
@@ -146,8 +150,9 @@ def _look(args: argparse.Namespace) -> None:
             "same",
             "codes",
             "latency",
+            "flips",
         ),
-        "property": ("vector", "same", "codes", "latency"),
+        "property": ("vector", "same", "codes", "latency", "flips"),
     }
     for name in beside.get(asked[0], ()):
         if getattr(args, name) not in (None, False):

@@ -6,6 +6,7 @@ import shutil
 from collections.abc import Sequence
 
 from modeproof.lane.agreement import line as agreement_line
+from modeproof.report.demanded import KIND
 from modeproof.report.verdicts import ASIDE, Line, Record
 
 GROUPS = (
@@ -77,6 +78,8 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
     proofs = [r for r in records if r["kind"] == "proof"]
     if proofs:
         out.append(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
+    if demands := [r for r in records if r["kind"] == KIND]:
+        out.append(counted(KIND, demands, "PROVED of refimpl by Z3, re-checked by cvc5"))
     agreement = [r for r in records if r["kind"] == "agreement"]
     if agreement:
         out.append(agreement_line(agreement))
@@ -102,6 +105,7 @@ def total(count: int, lines: Sequence[Line], records: Sequence[Record], seconds:
         for kind, ending, words in (
             ("conformance", "", "EQUAL or CONFORMS"),
             ("proof", "s", "PROVED by Z3, re-checked by cvc5"),
+            (KIND, "", "PROVED of refimpl by Z3, re-checked by cvc5"),
             ("registers", "", "consistent"),
         )
     ]

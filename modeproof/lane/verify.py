@@ -19,12 +19,14 @@ from modeproof.ground.places import add_document_option, chosen_documents, docum
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
 from modeproof.lane.conformance import compare_reference, comparisons, say
+from modeproof.lane.demands import proofs_of_demands
 from modeproof.lane.keep import NOTHING, Keep, kept_line
 from modeproof.lane.machine_command import ID as MACHINE
 from modeproof.lane.machine_command import judge_machine, machine_rests, troubles_of_machine
 from modeproof.lane.prove_command import prove_documents
 from modeproof.lane.summary import failures, machine_line, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
+from modeproof.report.demanded import KIND
 from modeproof.report.evidence_judge import doubt_on_machine
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.tlc.check import check_all, register_problems, select
@@ -257,11 +259,16 @@ def stages_of_verify(keep: Keep = NOTHING) -> list[tuple[str, Stage]]:
         tasks, missing, found = comparisons(place, names, lane, keep)
         own = machines(place) if set(names) == set(documents(place)) else ()
         judged: list[dict[str, Any]] = []
+        asked, demanded = proofs_of_demands(place, names, keep) if lane == "full" else ([], [])
+        tasks = [*asked, *tasks]  # the longest of them take longer than the longest comparison
 
         def take(record: dict[str, Any]) -> None:
             if record["kind"] == "machine":
                 judged.append(record)
                 progress.say(machine_line(record))
+            elif record["kind"] == KIND:
+                demanded.append(record)
+                say(record, progress)
             else:
                 found.append(record)
                 say(record, progress)
@@ -279,7 +286,7 @@ def stages_of_verify(keep: Keep = NOTHING) -> list[tuple[str, Stage]]:
         compared.append((found, missing))
         if lane != "full":
             troubles |= {name: why for name in own if (why := troubles_of_machine(place, name))}
-        return [*records, *judged], troubles
+        return [*records, *demanded, *judged], troubles
 
     def compare(
         place: Path, names: Sequence[str], lane: str, progress: Progress

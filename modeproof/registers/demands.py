@@ -63,9 +63,14 @@ class Undemanded(Entry, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class Demands:
-    """The register: the demands on each device, and the clauses that demand nothing."""
+    """The register: the demands on each device, the inputs of each that the document calls constant, with the
+    clauses that do, why those on a device are not proved of the reference in a lane, and the clauses that
+    demand nothing.
+    """
 
     of: dict[str, tuple[Demand, ...]] = field(default_factory=dict)
+    constant: dict[str, dict[str, Clauses]] = field(default_factory=dict)
+    unproved: dict[str, str] = field(default_factory=dict)
     undemanded: Undemanded = field(default_factory=Undemanded)
 
     @property
@@ -82,15 +87,21 @@ def load_demand_rows(root: Path, name: str) -> Demands:
         return Demands()
     data = read_toml(root, path)
     only_keys(source, data, ("device", "undemanded"))
-    found, seen = {}, set[str]()
+    found, constant, unproved, seen = {}, {}, dict[str, str](), set[str]()
     for device, table in data.get("device", {}).items():
         rows: dict[str, Any] = table.get("demand", {}) if isinstance(table, dict) else {}
+        steady = table.get("constant", {}) if isinstance(table, dict) else {}
+        constant[device] = typed(dict[str, Clauses], steady, f"{source}: {device}: constant")
+        if isinstance(table, dict) and "unproved" in table:
+            unproved[device] = typed(Text, table["unproved"], f"{source}: {device}: unproved")
         found[device] = tuple(typed(Demand, {**row, "id": id}, f"{source}: {id}") for id, row in rows.items())
         for row in found[device]:
             if row.id in seen:
                 raise Unjudged(f"{source}: two demands have the id {row.id!r}")
             seen.add(row.id)
-    return Demands(found, typed(Undemanded, data.get("undemanded", {}), f"{source}: [undemanded]"))
+    return Demands(
+        found, constant, unproved, typed(Undemanded, data.get("undemanded", {}), f"{source}: [undemanded]")
+    )
 
 
 def as_properties(root: Path, name: str, demands: Demands, interface: Interface) -> Iterator[Property]:

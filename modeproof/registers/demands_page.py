@@ -50,6 +50,17 @@ def check_demands(document: Document) -> Iterator[Problem]:
         for id in row.clauses:
             if id not in clauses:
                 yield Problem(file, row.id, f"unknown clause {id!r}; {suggestion(id, clauses)}")
+    for device, steady in demands.constant.items():
+        inputs = document.interface.devices[device].inputs if device in document.interface.devices else {}
+        for name, said in steady.items():
+            place = f"devices.{device}: constant: {name}"
+            if name not in inputs:
+                yield Problem(file, place, f"no such input; {suggestion(name, inputs)}")
+            if not said or not clauses >= {*said}:
+                yield Problem(
+                    file, place, f"clauses {', '.join(said) or 'none'}: of the document one is needed"
+                )
+    for row in demands.rows:
         if row.id in properties:
             yield Problem(file, row.id, "is the id of a property, too; a demand is what the page says")
     reasons = Counter(id for id, _ in demands.undemanded.reasons())
@@ -94,6 +105,12 @@ def demands_pages(document: Document) -> dict[str, str]:
     ]
     for device, rows in demands.of.items():
         lines += ["", f"## `{device}`", ""]
+        if why := demands.unproved.get(device):
+            lines += [f"Proved in no lane: {why}.", ""]
+        for name, cited in demands.constant[device].items():
+            lines.append(
+                f"- `{name}` is constant during a run ({', '.join(cited)}); `--flips` lets it change."
+            )
         for row in rows:
             lines.append(f"- **{row.id}** ({', '.join(row.clauses)}): {row.says}")
     lines += ["", "## Clauses that demand nothing", ""]

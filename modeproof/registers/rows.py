@@ -108,8 +108,6 @@ class Signal(Entry, frozen=True, kw_only=True):
     cautious: int | str | bool | list[int] | None = None
     because: str = ""
     project: bool = False
-    constant: bool = False
-    """Of an input: the document says that it does not change while the device runs."""
 
 
 class Device(Entry, frozen=True, kw_only=True):

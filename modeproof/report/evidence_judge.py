@@ -14,6 +14,7 @@ from typing import Any
 from modeproof.graph.equal import Comparison
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Document
+from modeproof.report.demanded import KIND, doubt_on_demands
 from modeproof.report.verdicts import verdict_on_machine
 from modeproof.tlc.run_judge_again import doubt
 from proofs.verdict import judge
@@ -107,6 +108,10 @@ def _trace(place: Path, document: Document, record: Record) -> str:
     return "" if accepted == lines > 0 else f"{accepted} of {lines} lines were accepted"
 
 
+def _demands(place: Path, document: Document, record: Record) -> str:
+    return doubt_on_demands(place, document.name, record["result"])
+
+
 _EXPECTED = {
     "proof": ("PROVED",),
     "conformance": ("EQUAL", "CONFORMS"),
@@ -115,6 +120,7 @@ _EXPECTED = {
     "coverage": ("EQUAL",),
     "trace": ("CONFORMS",),
     "strength": ("KILLED",),
+    KIND: ("PROVED",),
 }
 _JUDGES: dict[str, Callable[[Path, Document, Record], str]] = {
     "tlc": _tlc,
@@ -124,4 +130,5 @@ _JUDGES: dict[str, Callable[[Path, Document, Record], str]] = {
     "registers": _problems,
     "coverage": _problems,
     "trace": _trace,
+    KIND: _demands,
 }

@@ -12,11 +12,12 @@ from xml.etree import ElementTree
 
 from modeproof.registers.rows import Document
 from modeproof.report.claims import LANE, theorem_rows
+from modeproof.report.demanded import KIND
 from modeproof.report.snapshot import as_it_counts, machine_rows
 from modeproof.report.sources import DIFFERS, Evidence, Sources
 from modeproof.report.verdicts import status_of
 
-KINDS = ("tlc", "proof", "conformance", "agreement", "coverage", "registers", "strength")
+KINDS = ("tlc", "proof", "conformance", "agreement", "coverage", "registers", "strength", KIND)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from modeproof.registers.rows import Document
 from modeproof.report.claims import LANE, theorem_rows
+from modeproof.report.demanded import KIND, id_of, subjects
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Sources, Trouble, few, version_of
 from modeproof.report.verdicts import status_of
 
@@ -18,6 +19,7 @@ PART_OF = {
     "registers": "matrix",
     "strength": "strength",
     "machine": "machine",
+    KIND: "proofs",
 }
 
 
@@ -38,7 +40,12 @@ def missing(sources: Sources) -> Iterator[Trouble]:
             }
             lost = tuple(id for id in ids if id not in there)
             if lost:
-                word = {"tlc": "runs", "proof": "theorems", "conformance": "graphs"}.get(kind, kind)
+                word = {
+                    "tlc": "runs",
+                    "proof": "theorems",
+                    "conformance": "graphs",
+                    KIND: "proofs of demands",
+                }.get(kind, kind)
                 what = f"{name}: {len(lost)} of {len(ids)} {word} without evidence: {few(lost)}"
                 if kind == "conformance":
                     what = (
@@ -67,6 +74,7 @@ def _declared(sources: Sources, document: Document) -> dict[str, tuple[str, ...]
         "proof": theorems_of(sources, document),
         "conformance": tuple(f"{document.name}/{run.id}" for run in runs if run.graph is not None),
         "registers": ("registers",),
+        KIND: tuple(id_of(*one) for one in subjects(sources.root, document.name)),
     }
 
 

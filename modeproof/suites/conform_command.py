@@ -169,6 +169,7 @@ def _write_yours(
             *([f"--slow {args.slow}"] if args.slow != 1 else []),
             *(["--codes"] if args.codes else []),
             *(["--same"] if args.same else []),
+            *(["--flips"] if args.flips else []),
             *(f"--profile {name}" for name in profile),
         ]
     )

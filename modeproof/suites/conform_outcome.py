@@ -201,7 +201,7 @@ def about(args: argparse.Namespace) -> About:
     usual |= {"scans": None}
     words += [f"--{name} {getattr(args, name)}" for name in usual if getattr(args, name) != usual[name]]
     words += [f"--param {again.quoted(text)}" for text in args.param]
-    words += ["--codes"] * bool(args.codes) + ["--same"] * bool(args.same)
+    words += ["--codes"] * bool(args.codes) + ["--same"] * bool(args.same) + ["--flips"] * bool(args.flips)
     return About(
         command="conform",
         subject=args.name or _program(args),

@@ -1,6 +1,8 @@
 """What spec/<document>/demands.toml says of a device, as the kit reads it.
 
     [device.lamp]                       by device
+    constant = { press = ["TOY-2"] }    inputs that the document calls constant, with the clauses that do
+    unproved = "why"                    they are not proved of the reference in a lane
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
     [device.lamp.rules]                 a value, { recent = .. }, or { memory = .., starts = .. }
@@ -31,7 +33,7 @@ from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device, Signal
 
 FILE = "demands.toml"
-_ROW = {"tables", "constants", "rules", "demand"}
+_ROW = {"tables", "constants", "constant", "unproved", "rules", "demand"}
 _DEMAND = {"says", "clauses", "kind", "when", "holds", "comes"}
 
 
@@ -68,6 +70,8 @@ def load_demands(place: Path, document: str, device: Device) -> dict[str, Any] |
         demands.append({"id": id, **{key: value for key, value in entry.items() if key != "kind"}})
     constants = {**_tables(place, document, row.get("tables", []), where), **row.get("constants", {})}
     table = {"constants": constants, "rules": rules, "demands": demands}
+    if steady := row.get("constant", {}):
+        table["constant"] = steady
     try:
         inputs, outputs = (
             read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)

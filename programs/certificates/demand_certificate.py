@@ -26,6 +26,7 @@ from programs.certificates.certificate_folder import (
 )
 from programs.certificates.inductive import Claim, read_invariants
 from programs.demands.assumptions import Assumed
+from programs.demands.reference_subject import Implementation
 from programs.demands.register import demands_of
 from programs.demands.subject import Program
 from programs.demands.verdicts import Asked, Found, Judgement
@@ -42,6 +43,8 @@ TRUSTED: Final = (
     "the reading of demands as terms (compared with the kit's in random scans)",
 )
 """Besides the solver."""
+PROGRAM, REFERENCE = "program", "reference"
+"""Of what the demands are proved; if of the reference, they hold of a program that is proved equal to it."""
 REGISTERS = ("interface.toml", "demands.toml", "sequences.toml")
 
 
@@ -99,6 +102,7 @@ def claim(judgement: Judgement, product: Product) -> dict[str, Any]:
         "target": binding.reference.device.name,
         "document": binding.reference.document,
         "unit": binding.unit.name,
+        "subject": REFERENCE if isinstance(beside.subject, Implementation) else PROGRAM,
         "latency": beside.latency,
         "assumed": dict(beside.assumed.own),
         "assumptions": list(beside.assumed.words()),
@@ -128,9 +132,18 @@ def judgement_of(
 ) -> Judgement:
     """The program with what is demanded of it. Raises Unjudged."""
     of = product.binding.reference
-    beside = Beside(Program(product), demands_of(of), Assumed(of, assumed), latency)
+    demands = demands_of(of)
+    beside = Beside(Program(product), demands, Assumed(of, assumed, demands.constant), latency)
     beside.check()
     return Judgement(beside, vectors, seconds, tell, product.wrap)
+
+
+def of_reference(judgement: Judgement) -> Judgement:
+    """The same demands under the same assumptions, asked of the reference with the binding's parameters."""
+    beside = judgement.beside
+    subject = Implementation(beside.subject.reference, beside.subject.fixed)
+    own = Beside(subject, beside.demands, beside.assumed, beside.latency)
+    return Judgement(own, judgement.vectors, judgement.seconds, judgement.tell)
 
 
 # ---------------------------------------------------------------- reading
@@ -155,6 +168,8 @@ class Kept(Stored):
             product = make(sources, str(record["target"]), unit, names, record["wrap"] is True)
             latency = int(record["latency"])
             found = judgement_of(product, self.table("assumed"), latency, None, 0.0, lambda text: None)
+            if record["subject"] == REFERENCE:
+                found = of_reference(found)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise self.refuse(f"not the form of a certificate: {error!r:.100}") from None
         self.same("register", register_files(product.binding.reference.document))

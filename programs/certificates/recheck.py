@@ -14,6 +14,7 @@ import z3
 from modeproof.ground.errors import Unjudged
 from programs.certificates import demand_certificate, property_certificate
 from programs.certificates.certificate_folder import NAME, Obligation, record_in
+from programs.certificates.demand_certificate import REFERENCE
 from programs.certificates.equality_certificate import FORMAT, obligations, read
 from programs.demands.verdicts import Judgement as DemandJudgement
 from programs.equality.comparison import about, make
@@ -22,6 +23,7 @@ from programs.invariants.induction import Proof
 from programs.properties.property_verdicts import Judgement
 from programs.properties.transition_system import Asked
 
+FORMATS = (FORMAT, property_certificate.FORMAT, demand_certificate.FORMAT)
 FOLLOWS = "follows"
 """The folder in the certificate of equality that holds that of the demands."""
 LIMIT_MS = 300_000
@@ -81,6 +83,26 @@ class Rechecked:
         yield f"  effort      {seconds:.1f} s CPU"
 
 
+ALIKE = ("target", "document", "unit", "free_parameters", "fixed_parameters", "binding", "wrap", "sources")
+"""What two certificates say that are about one program with one binding."""
+
+
+def folders_of(folder: Path) -> list[Path]:
+    """The folders of certificates in this one. Raises Unjudged: one that rests on another is without it."""
+    own = record_in(folder, *FORMATS)
+    if own["format"] == demand_certificate.FORMAT and own.get("subject") == REFERENCE:
+        raise Unjudged(
+            f"{folder}: it is of the reference; name the folder above, with the certificate of equality"
+        )
+    inner = folder / FOLLOWS
+    if not inner.is_dir():
+        return [folder]
+    other = record_in(inner, demand_certificate.FORMAT)
+    if odd := next((key for key in ALIKE if own.get(key) != other.get(key)), ""):
+        raise Unjudged(f"{inner}: its {odd} is not that of the certificate in {folder}")
+    return [folder, inner]
+
+
 def recheck(folder: Path) -> Rechecked:
     """Make all obligations anew from the sources and from what the certificate found, and judge them.
 
@@ -112,8 +134,12 @@ def _about_demands(
 ) -> Iterator[str]:
     name = f"{record['unit']} of {', '.join(record['sources'])}"
     count = sum(bool(asked.clauses) for asked, _ in proofs)
-    if answers.status == 0:
-        yield f"{answers.word}: {name} FOLLOWS the page ({record['document']}): {count} demands, for ever"
+    page, of = f"the page ({record['document']})", record["subject"]
+    if answers.status == 0 and of == REFERENCE:
+        yield f"{answers.word}: the reference keeps {count} demands of {page}, for ever"
+        yield f"  so does     {name}, which the certificate in the folder above shows to be equal to it"
+    elif answers.status == 0:
+        yield f"{answers.word}: {name} FOLLOWS {page}: {count} demands, for ever"
     else:
         yield f"{answers.word}: {answers.folder} does not show that {name} follows the page"
     for asked, proof in proofs:

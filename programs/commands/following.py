@@ -40,6 +40,11 @@ class Followed:
         return [one for one in self.found if one.asked.id != TYPES]
 
     @property
+    def by_equality(self) -> bool:
+        """Some demand is proved of the reference, with which the program is proved to be equal."""
+        return any(one.by_equality for one in self.found)
+
+    @property
     def broken(self) -> list[Found]:
         """Those that are broken."""
         return [one for one in self.found if one.word == "BROKEN"]
@@ -94,8 +99,12 @@ def text_of(followed: Followed, seconds: float) -> Iterator[str]:
     for row in judgement.beside.unjudged:
         hidden = ", ".join(sorted(row.outputs & {*judgement.beside.unobserved}))
         yield f"  not judged  {row.id}: the output {hidden} is left out"
-    if proved := [one.asked.id for one in followed.found if one.word == "PROVED"]:
-        yield f"  proved      {', '.join(proved)}"
+    for label, by_equality in (("proved", False), ("by equality", True)):
+        rows = [one for one in followed.found if one.word == "PROVED" and one.by_equality == by_equality]
+        if rows:
+            yield f"  {label:<11} {', '.join(one.asked.id for one in rows)}"
+    if followed.by_equality:
+        yield "              proved of the reference, of which the program is proved to be the same"
     latency = judgement.beside.latency
     yield f"  latency     {latency} scan{'s' * (latency != 1)} for a reaction"
     yield f"  parameters  {parameters_of(product)}"

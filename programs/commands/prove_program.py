@@ -22,13 +22,15 @@ from modeproof.output.outcome import Outcome
 from programs.certificates import certificate_folder as folder
 from programs.certificates import demand_certificate
 from programs.certificates import equality_certificate as certificate
-from programs.certificates.demand_certificate import judgement_of
-from programs.certificates.recheck import FOLLOWS, recheck
+from programs.certificates.demand_certificate import judgement_of, of_reference
+from programs.certificates.recheck import FOLLOWS, folders_of, recheck
 from programs.commands import following
+from programs.commands.by_equality import by_equality
 from programs.commands.following import Followed
 from programs.commands.outcomes import outcome_of_target
 from programs.commands.results import vector_of, write_record
 from programs.demands.observer import LATENCY
+from programs.demands.steady import changing, steady_difference
 from programs.equality.binding import read_assumed, read_binding
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
@@ -46,9 +48,8 @@ TRUSTED = (*certificate.TRUSTED, "z3")
 def run_recheck(args: argparse.Namespace) -> int:
     """Check a certificate; the exit status is that of the check."""
     started = time.process_time()
-    folders = [args.recheck, *(one for one in [args.recheck / FOLLOWS] if one.is_dir())]
     statuses = []
-    for one in folders:
+    for one in folders_of(args.recheck):
         found = recheck(one)
         statuses.append(found.status)
         print("\n".join(found.lines(time.process_time() - started)))
@@ -64,6 +65,7 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     given, assumed = (
         ({}, {}) if args.binding is None else (read_binding(args.binding), read_assumed(args.binding))
     )
+    assumed = {**assumed, "flips": True} if args.flips else assumed
     product = make(args.files, args.target, args.unit, given, args.wrap, codes=args.codes)
     vectors = root() / "vectors" / args.target
 
@@ -76,16 +78,17 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     judgement.at_once = lambda broken, asked: print(
         following.at_once(broken, asked.id, asked.clauses), flush=True
     )
-    followed = Followed(product, judgement, judgement.all())
+    followed, same = Followed(product, judgement, judgement.all()), None
+    if followed.word == "UNKNOWN":
+        same = _same(args, followed, vectors, tell)
+        if same is not None and same.word == "PROVED":
+            tell("what could not be shown of the program is asked of the reference")
+            followed = by_equality(followed)
     tell("")
     lines = list(following.text_of(followed, time.process_time() - started))
     print("\n".join(lines), flush=True)
-    same, more, ways = _same(args, followed, vectors, tell)
-    if args.certificate is not None and followed.word == "FOLLOWS":
-        tell("writing the certificate")
-        place = args.certificate / FOLLOWS if more else args.certificate
-        demand_certificate.write(judgement, product, followed.found, place, args.binding)
-        more.append(f"  certificate {place}, of the demands; check it with --recheck {args.certificate}")
+    same = same or _same(args, followed, vectors, tell)
+    more, ways = _certificates(args, followed, same, tell)
     tell("")
     seconds = time.process_time() - started
     last = list(_lines_of_same(args, followed, same, seconds, more))
@@ -106,10 +109,8 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     return outcome_of_target(args, followed, same, record, text, clock)
 
 
-def _same(
-    args: argparse.Namespace, followed: Followed, vectors: Path, tell: Any
-) -> tuple[Verdict | None, list[str], Mapping[Pair, Run]]:
-    """Whether it is the same as the reference, lines on what was kept of it, and the scans to each pair.
+def _same(args: argparse.Namespace, followed: Followed, vectors: Path, tell: Any) -> Verdict | None:
+    """Whether it is the same as the reference; None: nobody asked, and no published vector denies it.
 
     If that is not asked for, a program that breaks the page is compared by the published vectors alone.
     """
@@ -120,21 +121,50 @@ def _same(
     else:
         first = published(product.binding, product.wrap, vectors)
         if not isinstance(first, Difference):
-            return None, [], {}
+            return None
         found = Verdict("REFUTED", product, difference=first)
     if found.difference is not None:
+        assumed = followed.judgement.beside.assumed
         tell("looking for the reading that the program has")
-        found = replace(found, reading=reading_of(product, found.difference, vectors))
+        shown = steady_difference(assumed, product, found.difference, vectors)
+        said = [reading_of(product, shown, vectors)]
+        if flips := ", ".join(changing(assumed, shown)):
+            said.append(f"in these scans {flips} changes, which the page calls constant")
+        found = replace(found, difference=shown, reading="; ".join(filter(None, said)))
+    return found
+
+
+def _certificates(
+    args: argparse.Namespace, followed: Followed, found: Verdict | None, tell: Any
+) -> tuple[list[str], Mapping[Pair, Run]]:
+    """Lines on the certificates that were asked for and written, and the scans to each pair."""
     lines: list[str] = []
-    ways: Mapping[Pair, Run] = {} if found.replayed is None else found.replayed.ways(found.product)
-    if args.same and args.certificate is not None and found.word == "PROVED":
+    ways: Mapping[Pair, Run] = {}
+    if found is not None and found.replayed is not None:
+        ways = found.replayed.ways(found.product)
+    if args.certificate is None:
+        return lines, ways
+    tell("writing the certificate")
+    equality = args.same or (followed.by_equality and followed.word == "FOLLOWS")
+    if equality and found is not None and found.word == "PROVED":
         assert found.replayed is not None
-        tell("writing the certificate")
         ways = certificate.write(found.product, found.replayed, args.certificate, args.binding)
         unreached = len(found.product.nodes) - len(ways)
         way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
-        lines.append(f"  certificate {args.certificate}{way}; check it with --recheck {args.certificate}")
-    return found, lines, ways
+        about = ", of equality" if followed.by_equality else ""
+        lines.append(
+            f"  certificate {args.certificate}{about}{way}; check it with --recheck {args.certificate}"
+        )
+    if followed.word == "FOLLOWS":
+        place = args.certificate / FOLLOWS if lines else args.certificate
+        judgement, rows = followed.judgement, followed.found
+        if followed.by_equality:
+            judgement = of_reference(judgement)
+            rows = judgement.all()
+        demand_certificate.write(judgement, followed.product, rows, place, args.binding)
+        whose = "the demands, of the reference" if followed.by_equality else "the demands"
+        lines.append(f"  certificate {place}, of {whose}; check it with --recheck {args.certificate}")
+    return lines, ways
 
 
 def _lines_of_same(

@@ -44,7 +44,10 @@ def judgement_of(
 ) -> Judgement:
     """The reference implementation in a profile, with what is demanded of it. Raises Unjudged."""
     of = reference(target)
-    beside = Beside(Implementation(of, profile), demands_of(of), Assumed(of), latency)
+    demands = demands_of(of)
+    beside = Beside(
+        Implementation.in_profile(of, profile), demands, Assumed(of, {}, demands.constant), latency
+    )
     beside.check()
     return Judgement(beside, root() / "vectors" / target, seconds, tell)
 

@@ -7,6 +7,7 @@ file of the binding:
     constant = ["S_AutoReset"]              # as it is in the first scan; or { S_AutoReset = false }
     never_both = [["StartTest", "Reset"]]
     held_ms = { Reset = 50 }                # once it has changed it stays so for at least so long
+    flips = true                            # what the page calls constant may change, too
 """
 
 from __future__ import annotations
@@ -25,13 +26,16 @@ from programs.semantics.reference import Reference
 
 @dataclass(frozen=True)
 class Assumed:
-    """What is assumed of the inputs of a target. `own`: what the user has asked for."""
+    """What is assumed of the inputs of a target. own: what the user has asked for; printed: the inputs that
+    the page calls constant.
+    """
 
     reference: Reference
     own: Mapping[str, Any] = field(default_factory=dict)
+    printed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        kinds = {"constant": (list, dict), "never_both": (list,), "held_ms": (dict,)}
+        kinds = {"constant": (list, dict), "never_both": (list,), "held_ms": (dict,), "flips": (bool,)}
         for key, value in self.own.items():
             if key not in kinds:
                 raise Unjudged(f"[assume]: unknown key {key!r}; {suggestion(key, kinds)}")
@@ -68,9 +72,10 @@ class Assumed:
 
     @cached_property
     def by_page(self) -> tuple[str, ...]:
-        """The inputs that the page calls constant."""
+        """The inputs that the page calls constant, unless the user lets them change."""
         signals = self.reference.signals("inputs").items()
-        return tuple(name for name, signal in signals if signal.constant)
+        printed = () if self.own.get("flips") else self.printed
+        return tuple(name for name, signal in signals if signal.name in printed)
 
     @cached_property
     def constant(self) -> tuple[str, ...]:
@@ -152,6 +157,13 @@ class Assumed:
         return found
 
     # ------------------------------------------------------------ with plain values
+
+    def steadied(self, run: Run) -> Run:
+        """The run with what is constant as it is in the first scan, or as it is said to be."""
+        if not run.scans:
+            return run
+        held = {name: run.scans[0][1][name] for name in self.constant} | dict(self.fixed)
+        return Run(run.parameters, [(dt_ms, {**row, **held}) for dt_ms, row in run.scans], run.retained)
 
     def fulfilling(self, run: Run) -> Run:
         """The scans of a run up to the first one that does not fulfil it."""

@@ -1,4 +1,4 @@
-"""The reference implementation as what the demands are asked of, in one profile."""
+"""The reference implementation as what the demands are asked of, with some parameters fixed."""
 
 from __future__ import annotations
 
@@ -21,10 +21,18 @@ CONTROL = "before.control"
 
 @dataclass(frozen=True)
 class Implementation:
-    """A device of refimpl. Parameters that choose have the values of the profile, all others any."""
+    """A device of refimpl. fixed: the parameters that have one value, as the code has it; others have any."""
 
     reference: Reference
-    profile: str
+    fixed: Mapping[str, Any]
+
+    @staticmethod
+    def in_profile(reference: Reference, profile: str) -> Implementation:
+        """With the values of a profile for the parameters that choose."""
+        signals = reference.signals("parameters").items()
+        chosen = {name: of for name, of in signals if of.project or of.cautious is not None}
+        values = {name: reference.in_code(name, value_in(of, profile)) for name, of in chosen.items()}
+        return Implementation(reference, values)
 
     @cached_property
     def _control(self) -> Any:
@@ -82,16 +90,6 @@ class Implementation:
     def inside(self) -> z3.BoolRef:
         """As `Subject.inside`."""
         return z3.BoolVal(True)
-
-    @cached_property
-    def fixed(self) -> Mapping[str, Any]:
-        """As `Subject.fixed`."""
-        signals = self.reference.signals("parameters").items()
-        return {
-            name: self.reference.in_code(name, value_in(of, self.profile))
-            for name, of in signals
-            if of.project or of.cautious is not None
-        }
 
     @property
     def conditions(self) -> Sequence[z3.BoolRef]:

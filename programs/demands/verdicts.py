@@ -20,6 +20,7 @@ from programs.equality.replay import MOST_SCANS, SUITES, Run
 from programs.equality.shorten import fewer
 from programs.invariants.houdini import Houdini
 from programs.invariants.induction import Proof, System, induction, shortest, spacer
+from programs.invariants.word_numbers import spacer_over_numbers
 from programs.semantics.terms import compared_with
 
 Word = Literal["PROVED", "BROKEN", "UNKNOWN"]
@@ -61,6 +62,8 @@ class Found:
     broken: Broken | None = None
     scans: int = 0
     proof: Proof | None = None
+    by_equality: bool = False
+    """It is proved of the reference, and the program is proved to be the same."""
 
 
 @dataclass
@@ -163,7 +166,8 @@ class Judgement:
                     if longest is not None and max(scan.dt_ms for scan in case.scans) > longest:
                         continue
                     scans = [(scan.dt_ms, of.from_wire("inputs", scan.inputs)) for scan in case.scans]
-                    run = self.beside.assumed.fulfilling(Run(parameters, scans))
+                    assumed = self.beside.assumed
+                    run = assumed.fulfilling(assumed.steadied(Run(parameters, scans)))
                     if run.scans:
                         yield f"published vector {case.id} of {name}", run
             except KitUnjudged as error:
@@ -213,6 +217,10 @@ class Judgement:
 
     # ------------------------------------------------------------ one demand
 
+    def one(self, id: str) -> Found:
+        """The verdict on one demand."""
+        return self._judge(next(asked for asked in self.every if asked.id == id))
+
     def _judge(self, asked: Asked) -> Found:
         """Cheap questions first: few scans at once, few scans from power-up, Spacer, invariants."""
         known = self.replays.broken.get(asked.id)
@@ -229,7 +237,8 @@ class Judgement:
             way, looked = shortest(self.system, bad, FEW_SCANS, started + seconds)
             if way is not None:
                 return self._replayed(asked, self.beside.wires.run_of(way))
-            proof = spacer(self.system, bad, [], seconds / 4)
+            proof = spacer_over_numbers(self.system, bad, [], seconds / 2)
+            proof = proof or spacer(self.system, bad, [], seconds / 4)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)

@@ -267,6 +267,20 @@ def is_inductive(system: System, lemmas: Sequence[z3.BoolRef]) -> bool:
 def spacer(system: System, bad: z3.BoolRef, lemmas: Sequence[z3.BoolRef], seconds: float) -> Proof | None:
     """A proof by z3's Spacer, whose invariant was asked again; None: it has none in that time."""
     small = system.cone(bad, *lemmas)
+    invariant = spacer_invariant(small, bad, lemmas, seconds)
+    if invariant is None:
+        return None
+    proof = Proof(1, [*lemmas, invariant], "an invariant of z3's Spacer")
+    try:
+        return proof if holds_up(system, bad, proof) else None
+    except (z3.Z3Exception, TimeoutError):
+        return None
+
+
+def spacer_invariant(
+    small: System, bad: z3.BoolRef, lemmas: Sequence[z3.BoolRef], seconds: float
+) -> z3.BoolRef | None:
+    """An invariant that excludes `bad`, as z3's Spacer says; None: it says nothing in that time."""
     fixed = z3.Fixedpoint()
     fixed.set(engine="spacer", timeout=int(seconds * 1000))
     order = list(small.state)
@@ -282,11 +296,8 @@ def spacer(system: System, bad: z3.BoolRef, lemmas: Sequence[z3.BoolRef], second
     try:
         if fixed.query(wrong()) != z3.unsat:
             return None
-        answer = fixed.get_answer()
-        invariant = _interpretation(answer, known, [small.state[path] for path in order])
-        proof = Proof(1, [*lemmas, invariant], "an invariant of z3's Spacer")
-        return proof if holds_up(system, bad, proof) else None
-    except (z3.Z3Exception, TimeoutError):
+        return _interpretation(fixed.get_answer(), known, [small.state[path] for path in order])
+    except z3.Z3Exception:
         return None
 
 

@@ -10,8 +10,9 @@ from typing import Any
 
 import z3
 
+from programs.invariants.bounded_search import shortest
 from programs.invariants.houdini import Houdini
-from programs.invariants.induction import Proof, System, Way, induction, shortest, spacer
+from programs.invariants.induction import Proof, System, Way, induction, spacer
 from programs.invariants.relations import like
 from programs.language.tree import Expression, Unary
 from programs.properties.property_file import TYPES
@@ -162,6 +163,10 @@ class Judgement:
         """The scans after which a property is false, over the values before them that can change."""
         return self._put(self.plainly_bad(asked))
 
+    def occurs(self, trigger: Expression) -> z3.BoolRef:
+        """The scans after which a trigger is true, over the values before them that can change."""
+        return self._put(z3.And(self.whole.inside, self.cell.holds(trigger)))
+
     def _put(self, term: z3.BoolRef) -> z3.BoolRef:
         found: z3.BoolRef = z3.simplify(z3.substitute(term, *self.whole.constants))
         return found
@@ -222,7 +227,7 @@ class Judgement:
             return Found(asked, "EMPTY", SAYS_NOTHING)
         reached = []
         for text, trigger in asked.trigger:
-            term = self._put(z3.And(self.whole.inside, self.cell.holds(trigger)))
+            term = self.occurs(trigger)
             way, scans = shortest(self.system, term, MOST_SCANS // 2, until)
             if way is None:
                 if induction(self.system, term, [], until + 10) or spacer(self.system, term, [], 10):

@@ -19,6 +19,7 @@ from modeproof.kit.vectors import Suite
 from tests.kit import plainly
 from tests.kit.stages import (
     ARMED,
+    DEMANDS,
     FIRED,
     LOWERED,
     OFF,
@@ -311,9 +312,29 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
     assert kit.run(refused, lambda: Wired(Spoiled(half)), "monitor").word == "UNJUDGED"
 
 
+def where_something_must_come_that_alone_must_be_put(kit: Kit) -> None:
+    comes = {**COMES, "id": "AComes", "comes": "A"}
+    demands = {**DEMANDS, "demands": [*DEMANDS["demands"], comes]}  # type: ignore[misc]
+    two, idle = case([(0, True, True), (0, True, True)], reset=False), case([(0, False, True)], reset=False)
+    dark = {(n, "B"): False for n in range(1, 9)}
+    assert kit.run(suite([two], ["monitor"], demands), lambda: Spoiled(dark), "monitor").word == "FOLLOWS"
+    verdict = kit.run(suite([idle], ["monitor"], demands), Program, "monitor")
+    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("4 of 4 demands were never put")
+    asked = {**comes, "when": "A and was_B"}  # the right program lowers it; who leaves A dark is never asked
+    demands = {**DEMANDS, "demands": [*DEMANDS["demands"], asked]}  # type: ignore[misc]
+    fired = case([(0, True, True), (0, True, True), (0, True, True)], reset=False)
+    half = {(n, "A"): False for n in range(1, 9)}
+    verdict = kit.run(suite([fired], ["monitor"], demands), lambda: Spoiled(half), "monitor")
+    assert verdict.reason.startswith("1 of 4 demands") and verdict.reason.endswith(": AComes")
+    assert kit.run(suite([two], ["monitor"], demands), lambda: Spoiled(half), "monitor").word == "FOLLOWS"
+
+
 def latency_needs_inputs_that_are_held(kit: Kit) -> None:
     of = suite([case([(0, True, True), (0, True, True)])], ["exact", "monitor"])
     assert "changes inputs in every scan" in kit.run(of, Program, "monitor", latency=1).reason
+    bare = replace(of, header={**of.header, "demands": None})
+    assert "changes inputs in every scan" in kit.run(bare, Program, "monitor", latency=1).reason
+    assert kit.run(of, Program, latency=1).word == "CONFORMS", "exact is exact"
     held = suite([case([(0, True, False), (0, True, True)])], ["settled", "monitor"])
     assert kit.run(held, Program, "monitor", latency=1).word == "FOLLOWS"
     odd = {(1, "A"): True, (1, "CODE"): "00FF", (2, "CODE"): "00FF"}
@@ -324,6 +345,90 @@ def latency_needs_inputs_that_are_held(kit: Kit) -> None:
     ).differences or [None]
     assert found is None or found.broken
     assert "is for relation settled or monitor, not exact" in kit.run(held, Program).reason
+
+
+# ---------------------------------------------------------------------------------------------- patience
+
+
+COMES = {"id": "BComes", "says": "BC.", "clauses": ["S-7"], "when": "go", "comes": "B"}
+"""What must come, and no walk that changes its inputs in every scan ever waits for it."""
+HELD = 27
+"""Scans of a row of inputs that is held patiently."""
+
+
+class Noted(Program):
+    """The right program; `sent` has what it was sent: parameters at each reset, the ms of each scan."""
+
+    def __init__(self, sent: list[Any]) -> None:
+        self.sent = sent
+        super().__init__()
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        self.sent.append(dict(params))
+        super().reset(params)
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+        self.sent.append(dt_ms)
+        return super().scan(dt_ms, inputs)
+
+
+def who_is_watched_is_asked_again_with_each_row_held(kit: Kit) -> None:
+    def sent(*cases: Any, relations: Sequence[str] = ("monitor",), **options: Any) -> list[Any]:
+        found: list[Any] = []
+        kit.run(suite(list(cases), relations), lambda: Noted(found), "monitor", **options)
+        return found[1:]
+
+    two = case([(10, True, True), (20, False, True)])
+    still = [{}, *[10] * HELD, 0, *[5] * (HELD - 1)]
+    assert sent(two, hold_ms=5) == [{}, 10, 20, *still, {}, *[10] * HELD, *[20] * HELD]
+    long = case([(10, True, True), (20, False, False), (30, False, True)])
+    still = [{}, *[10] * HELD, 0, *[5] * (HELD - 1)]
+    lasting = [{}, *[10] * HELD, 20, 30, *[20] * (HELD - 2)]
+    assert sent(long, hold_ms=5) == [{}, 10, 20, 30, *still, *lasting]
+    assert sent(replace(two, reset=False)) == [10, 20], "it cannot be asked again"
+    held = case([(10, True, False), (0, True, True)])
+    assert sent(held, relations=["settled", "monitor"], latency=3) == [{}, 10, 0, 0, 0, 0, 0]
+    found: list[Any] = []
+    kit.run(suite([requested(two, 1)], ["monitor"]), lambda: Wired(Noted(found)), "monitor")
+    assert found[1:] == [{}, 10, 20]
+
+
+def patience_has_an_end(kit: Kit) -> None:
+    of = suite(
+        [case([(10, True, True), (0, True, True)]), case([(20, True, True), (0, True, True)])], ["monitor"]
+    )
+    known = kit.relation.PATIENT_SCANS
+    try:
+        for patience, resets in ((0, 2), (1, 4), (4 * HELD, 4), (4 * HELD + 1, 6), (4 * HELD + 3, 6)):
+            kit.relation.PATIENT_SCANS = patience  # type: ignore[attr-defined]
+            found: list[Any] = []
+            kit.run(of, lambda: Noted(found), "monitor")  # noqa: B023
+            assert found[1:].count({}) == resets, patience
+    finally:
+        kit.relation.PATIENT_SCANS = known  # type: ignore[attr-defined]
+
+
+def what_must_come_is_missed_with_patience_alone(kit: Kit) -> None:
+    class Dead(Program):
+        def shown(self, row: Mapping[str, Any]) -> Mapping[str, Any]:
+            return ROWS[OFF]
+
+    class Timed(Program):
+        def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+            return super().scan(dt_ms, inputs) if dt_ms else dict(ROWS[self.device.state])
+
+    demands = {**DEMANDS, "demands": [*DEMANDS["demands"], COMES]}  # type: ignore[misc]
+    of = suite([case([(10, False, True), (10, True, True)])], ["monitor"], demands)
+    assert kit.run(of, Program, "monitor").word != "BREAKS"
+    verdict = kit.run(of, Timed, "monitor")
+    assert verdict.word == "BREAKS", "while time stands still, though not while it goes on"
+    known = kit.relation.PATIENT_SCANS
+    try:
+        kit.relation.PATIENT_SCANS = 1  # type: ignore[attr-defined]
+        (found,) = kit.run(of, Dead, "monitor", effort=5).differences
+    finally:
+        kit.relation.PATIENT_SCANS = known  # type: ignore[attr-defined]
+    assert found.broken == "BComes" and found.confirmed, "it is run again as patiently"
 
 
 # ------------------------------------------------------------------------------------------ what is sent

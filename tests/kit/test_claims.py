@@ -96,14 +96,14 @@ EXPLAINED: dict[str, str] = {
         judge-31ae0bf1 judge-57a299fa judge-0fa96af2 judge-0e372bdf""",
     "two questions that are not both answered with yes, in the other order": """
         judge-4c8a10ee judge-e4e856fa judge-b3c53dba judge-321d362f judge-0aa40231 judge-32236298
-        judge-62b8dade
-        relation-a25a7f87""",
+        judge-62b8dade""",
     "the first scan of a case always shows, so at least one transition does": """
         judge-67d562b3 judge-3110d602 judge-3bf9771d judge-13bcc697""",
     "a way round that saves time and gives the same": """
-        judge-a6cbaa63 judge-3d2572a6 judge-ff65bcb9 judge-f0c8fe33
+        judge-a6cbaa63 judge-3d2572a6
         relation-390f382c relation-acf0ce47 relation-799728df relation-01166de2 relation-911dcd1c
-        relation-14ce80a2 relation-b2184386 relation-177d0f58 relation-9869fb3f relation-c2f377b6""",
+        relation-14ce80a2 relation-b2184386 relation-177d0f58 relation-9869fb3f relation-c2f377b6
+        relation-f312b4ca""",
     "an earlier line has refused what is refused here": """
         relation-2f1e4733 relation-583612d5 relation-95dd6238 relation-8d1ce505
         relation-08623fe1
@@ -113,14 +113,6 @@ EXPLAINED: dict[str, str] = {
         relation-07c1c148 judge-a44b9cdd judge-05709487 judge-11ce6320""",
     "a machine's own vectors (tests/kit/test_machine_parameters.py), real time, and rules over the past": """
         judge-014c99c6 judge-92022dd9 judge-42122110 judge-f01247d5""",
-    "patience with what must come: no claim of its own yet, tried whole in test_two_answers.py": """
-        judge-8fe22f24 judge-280d79c0 judge-f2fedb6d judge-58cf2db6 relation-f312b4ca
-        relation-39dbfc82 relation-4e8bf3f4 relation-747635b6 relation-f27613bc relation-9d44e9f7
-        relation-f0354237 relation-9aa98b5b relation-ae01e8ee relation-d2de0f81 relation-5357814d
-        relation-450b78a3 relation-145e64da relation-73795d9b relation-0e44ceec relation-86d21923
-        relation-26fb18dd relation-4438caff relation-6dfe649d relation-efce14f9 relation-66ea943e
-        relation-568fc199 relation-35584914 relation-1632e515 relation-a54ec9ed relation-3be54683
-        relation-051579a3 relation-4da42798 relation-1e4bdd63 relation-275b8bdf""",
 }
 """The mutants that break no claim, by the reason."""
 

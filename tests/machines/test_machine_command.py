@@ -41,14 +41,17 @@ def machine(tmp_path: Path, text: str, properties: Path | None = None, leave_out
     return Machine(text, str(path), file, FOLDER / "use.toml", leave_out=leave_out)
 
 
-def test_what_the_wiring_lacks_is_named_property_by_property(tmp_path: Path) -> None:
+def test_a_wiring_without_a_beam_is_not_asked_about_it(tmp_path: Path) -> None:
     found = machine(tmp_path, without_the_beam())
-    lost = found.lacking
-    assert {"beam-stops", "beam-stops-manual", "dark-stops-at-once", "beam-needs-reset"} <= set(lost)
-    assert lost["beam-stops"] == "S_BeamFree"
-    assert lost["beam-error-stays"] == "beam.Error"
-    assert not {"one-mode", "stop-stops", "unlock-at-rest", "reset-then-start"} & set(lost)
-    assert {*lost, *(row["id"] for row in found.questions.rows)} == {row["id"] for row in found.every.rows}
+    assert found.lacking == {}
+    assert {*found.not_asked.values()} == {"no SF_TestableSafetySensor"}
+    assert {*found.not_asked} == {
+        *("beam-stops", "beam-stops-manual", "dark-stops-at-once", "beam-needs-reset"),
+        *("sender-off-only-tested", "beam-error-stays"),
+    }
+    assert {*found.not_asked, *(row["id"] for row in found.questions.rows)} == {
+        row["id"] for row in found.every.rows
+    }
     assert "beam_reset" not in found.watched.rows
     assert found.runner.cell
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from machines import flowchart as machine_picture
+from machines.concrete_runs import Scan
 from machines.trial import edits
 from machines.verdicts import Machine
 from machines.wiring import wiring_of
@@ -209,3 +210,33 @@ def test_the_page_has_picture_and_matrix_of_the_wiring() -> None:
     wiring = wiring_of(TEXT, "wiring.toml")
     assert machine_picture.picture(wiring) in page
     assert machine_picture.matrix(wiring) in page
+
+
+@pytest.mark.deep
+def test_a_forgotten_door_is_found_in_the_fewest_scans() -> None:
+    text = TEXT.replace('automatic = [["guard", "beam"]]', 'automatic = [["enable"]]')
+    assert text != TEXT
+    machine = Machine(text, "my.toml", FOLDER / "safety.toml", FOLDER / "use.toml")
+    machine.search.look(["automatic-closed"], 60)
+    scans = machine.search.scans("automatic-closed")
+    assert scans is not None
+    assert (len(scans), machine.search.clean("automatic-closed")) == (17, 16)
+    rule = next(rule for rule in machine.rules if rule.id == "automatic-closed")
+    calm = machine.runner.calmed(scans, rule, 400)
+    assert machine.runner.broken(calm, rule) == 17
+
+    def changes(of: list[Scan]) -> int:
+        return sum(of[n][1][name] != of[n - 1][1][name] for n in range(1, 17) for name in of[0][1])
+
+    assert changes(calm) < changes(scans)
+
+
+@pytest.mark.deep
+@pytest.mark.long
+def test_a_press_is_judged_whole(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["machine", str(ROOT / "examples/machines/press.toml"), "--quiet"]) == 0
+    said = capsys.readouterr().out
+    assert "  verdicts    34 PROVED, 0 REFUTED, 0 UNKNOWN" in said
+    for id in ("reset-then-start", "mode-change-stops", "reset-never-starts", "mode-needs-key"):
+        assert f"PROVED: {id}: " in said
+    assert said.count("  not asked   ") == 3

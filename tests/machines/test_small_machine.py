@@ -9,7 +9,7 @@ import pytest
 
 from machines.evidence import machine_of
 from machines.killers import Killers, read_killers
-from machines.machine_command import status
+from machines.machine_command import lines_of, status
 from machines.trial import Trial, edits
 from machines.trial_record import basis_of, outcomes_path
 from machines.verdicts import Machine
@@ -97,12 +97,13 @@ def test_each_verdict_comes_with_its_reason(folder: Path) -> None:
     assert [found[id][0] for id in ("closed", "wrong", "idle", "absent", "nothing")] == [
         "PROVED",
         "REFUTED",
-        "UNKNOWN",
+        "EMPTY",
         "NOT JUDGED",
         "EMPTY",
     ]
     assert "judged again by z3 and cvc5" in found["closed"][1]
-    assert "was never true in" in found["idle"][1]
+    assert found["idle"][1] == "`S_Drive AND NOT Door` can never be true, so it says nothing"
+    assert found["wrong"][1] == "2 scans: no fewer do, whatever inputs and scan times"
     assert found["absent"][1] == "the wiring has no 'Beam'"
 
 
@@ -247,7 +248,7 @@ def test_a_trial_counts_for_the_text_it_was_made_of(present: bool, folder: Path)
         ("wiring", "Stop OR NOT safeguards_hold", "Stop", "REFUTED"),
         ("wiring", '"Stop OR NOT', '"Halt OR NOT', "UNJUDGED"),
         ("safety", "Door AND Key", "Door AND Key OR TRUE", "UNJUDGED"),
-        ("safety", 'holds = "S_Drive"', 'holds = "S_Drive AND NOT Door"', "UNKNOWN"),
+        ("safety", 'holds = "S_Drive"', 'holds = "S_Drive AND NOT Door"', "UNJUDGED"),
         ("safety", "Door AND Key", "Gate AND Key", "UNJUDGED"),
         ("killers", "closed", "shut", "SURVIVED"),
     ],
@@ -337,3 +338,85 @@ def test_an_output_is_asked_about_by_pin_or_observer(folder: Path, row: str, los
 def test_an_excuse_names_something_and_says_why(folder: Path, said: str, words: str) -> None:
     with pytest.raises(Unjudged, match=words):
         left_out(folder, WIRING, said)
+
+
+ROLES = """[roles]
+modes = ["hand", "foot"]
+[roles.devices]
+beam = { of = "SF_TestableSafetySensor", names = ["S_BeamFree"] }
+gate = { of = "SF_GuardLocking", names = ["S_Closed"] }
+"""
+HELD = ("held", 'holds = "S_Drive AND foot"\nonly_if = "Door"')
+ROWS = (
+    CLOSED,
+    HELD,
+    ("dark", 'never = "S_Drive AND NOT S_BeamFree"'),
+    ("either", 'holds = "S_Drive AND (hand OR foot) OR beam.Error"\nonly_if = "Door"'),
+)
+GATE = """[block.%s]
+of = "SF_GuardLocking"
+why = "a door"
+inputs = { Activate = "TRUE", S_GuardMonitoring = "Door", S_SafetyActive = "TRUE", S_GuardLock = "Door", \
+UnlockRequest = "Stop", S_StartReset = "FALSE", S_AutoReset = "FALSE", Reset = "Key" }
+[outputs]"""
+
+
+def with_gate(name: str) -> str:
+    return WIRING.replace("[outputs]", GATE.replace("\\\n", "") % name, 1).replace(
+        '["running"]', f'["running", "{name}"]'
+    )
+
+
+def playing(folder: Path, wiring: str, *rows: tuple[str, str]) -> Machine:
+    path = folder / "own.toml"
+    path.write_text(f"{ROLES}\n{asked(*(rows or ROWS))}", "utf-8")
+    return Machine(wiring, "my.toml", path, folder / "use.toml", leave_out=True, runs=20)
+
+
+def test_what_a_machine_has_not_is_no_failure(folder: Path) -> None:
+    machine = playing(folder, WIRING)
+    assert machine.not_asked == {"held": "no mode foot", "dark": "no SF_TestableSafetySensor"}
+    found = machine.all(20)
+    assert [(one.asked.id, one.word) for one in found] == [("closed", "PROVED"), ("either", "PROVED")]
+    assert status(found) == 0
+    said = [line for line in lines_of(machine, found, 0.0) if line.startswith("  not asked")]
+    assert said == ["  not asked   held: no mode foot", "  not asked   dark: no SF_TestableSafetySensor"]
+
+
+def test_a_role_is_played_under_another_name(folder: Path) -> None:
+    wiring = WIRING.replace("hand", "inching") + '[roles]\nhand = "inching"\n'
+    machine = playing(folder, wiring)
+    assert machine.questions.rows[1]["holds"] == "(S_Drive AND (inching OR FALSE) OR FALSE)" or (
+        machine.questions.rows[1]["holds"] == "S_Drive AND (inching OR FALSE) OR FALSE"
+    )
+    assert (machine.lacking, {*machine.not_asked}) == ({}, {"held", "dark"})
+
+
+def test_a_mode_that_plays_no_role_leaves_questions_unjudged(folder: Path) -> None:
+    machine = playing(folder, WIRING.replace("hand", "inching"))
+    assert machine.lacking == {"held": "foot", "either": "hand"}
+
+
+@pytest.mark.parametrize("name", ["gate", "door2"])
+def test_a_device_that_no_question_names_is_no_pass(name: str, tmp_path: Path) -> None:
+    """A wiring that has the device under another name is asked for it, and one of two is not forgotten."""
+    machine = playing(tmp_path, with_gate(name), CLOSED, ("open", 'never = "gate.Error AND NOT S_Closed"'))
+    assert machine.lacking == {"open": "S_Closed" if name == "gate" else "gate.Error"}
+    assert [one.asked.id for one in machine.left_out()] == [f"block {name}"]
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ('hnd = "hand"', "no role 'hnd'; did you mean 'hand'"),
+        ('foot = "hnd"', "nothing is 'hnd'; did you mean 'hand'"),
+        ('foot = "Key"', "'Key' is no mode"),
+        ('gate = "hand"', "'hand' is a mode"),
+    ],
+)
+def test_a_role_that_nobody_can_play_is_refused(row: str, said: str, folder: Path) -> None:
+    machine = playing(folder, f"{WIRING}[roles]\n{row}\n")
+    with pytest.raises(Unjudged) as caught:
+        assert machine.cast
+    line = WIRING.count("\n") + 2
+    assert f"my.toml:{line}: roles.{row.partition(' ')[0]}: {said}" in caught.value.message

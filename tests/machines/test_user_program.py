@@ -12,6 +12,7 @@ import pytest
 from machines.equality import Equality
 from machines.machine_command import lines_of, taken
 from machines.user_program import ProgramMachine
+from machines.verdicts import Machine
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.suite_judge import CONFORMS, DIFFERS, Plan, run_suite
@@ -218,3 +219,21 @@ def test_every_property_is_proved_of_the_program_by_hand(capsys: pytest.CaptureF
     said = capsys.readouterr().out
     count = len(tomllib.loads((FOLDER / "safety.toml").read_text("utf-8"))["property"])
     assert f"{count} PROVED, 0 REFUTED, 0 UNKNOWN" in said
+
+
+PRESS = ROOT / "examples/machines/press.toml"
+
+
+@pytest.mark.parametrize("path", [FOLDER / "wiring.toml", PRESS], ids=["cell", "press"])
+def test_the_program_that_is_written_is_read(path: Path, tmp_path: Path) -> None:
+    """And it does what the wiring says, scan by scan."""
+    written = tmp_path / "written.st"
+    assert main(["machine", str(path), "--program", str(written), "--quiet"]) == 0
+    given = path.read_text("utf-8"), str(path), FOLDER / "safety.toml", FOLDER / "use.toml"
+    program = ProgramMachine(*given, leave_out=True, runs=1, sources=[written])
+    wired = Machine(*given, leave_out=True, runs=1)
+    assert program.lacking == {}
+    scans = [scan for scan, _, _ in wired.runner.runs(0)]
+    outputs = [*wired.wiring.table.outputs, "guard.Error", "edm.Error"]
+    for here, there in zip(wired.runner.replayed(scans), program.runner.replayed(scans), strict=True):
+        assert {name: here[name] for name in outputs} == {name: there[name] for name in outputs}

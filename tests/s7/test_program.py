@@ -317,7 +317,7 @@ def test_what_was_written_is_put_back_at_the_end(suite: Suite, plc: Plc, tmp_pat
     assert plc.scans == 1, "to put it back starts no scan"
 
 
-def test_a_plc_that_stops_being_a_rig_within_a_case_is_left(
+def test_a_case_is_left_when_the_rig_ends(
     suite: Suite, plc: Plc, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "map.csv"

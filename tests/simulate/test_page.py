@@ -282,10 +282,11 @@ def test_the_page_asks_for_nothing_and_says_nothing(opened: Opened, page_file: P
 
 @pytest.mark.sampled
 @pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "findings", "suites"])
-def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> None:
+def test_everyone_can_use_the_page_down_to_a_phone(part: str, opened: Opened) -> None:
     page = opened.page
     page.click(f"nav [data-part={part}]")
     assert opened.inaccessible() == []
-    page.set_viewport_size({"width": 800, "height": 900})
-    assert opened.ask("() => document.documentElement.scrollWidth") <= 800
+    for width in (800, 390):
+        page.set_viewport_size({"width": width, "height": 900})
+        assert opened.ask("() => document.documentElement.scrollWidth") <= width
     page.set_viewport_size({"width": 1280, "height": 900})

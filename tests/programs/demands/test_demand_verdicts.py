@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import shutil
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import pytest
 
 from modeproof.cli import main
@@ -151,12 +149,13 @@ def test_a_run_is_cut_where_an_assumption_ends() -> None:
 
 def test_an_input_that_the_page_calls_constant_is_so() -> None:
     of = make([SWITCH], "sf_enable_switch", codes=False).binding.reference
-    register = of.device.register
-    given = msgspec.structs.replace(register.inputs["S_AutoReset"], constant=True)
-    device = msgspec.structs.replace(register, inputs={**register.inputs, "S_AutoReset": given})
-    found = Assumed(replace(of, device=replace(of.device, register=device)))
+    found = Assumed(of, {}, ("S_AutoReset",))
     assert found.constant == ("S_AutoReset",)
     assert list(found.words()) == ["S_AutoReset: constant during a run, as the page has it"]
+    assert Assumed(of, {"flips": True}, ("S_AutoReset",)).constant == ()
+    on, off = (dict.fromkeys(of.signals("inputs"), value) for value in (True, False))
+    held = found.steadied(Run({}, [(0, on), (10, off)]))
+    assert len(found.fulfilling(held).scans) == 2 and held.scans[1][1] == {**off, "S_AutoReset": True}
 
 
 # ---------------------------------------------------------------- the certificate

@@ -1,0 +1,91 @@
+"""`verify` proves the demands of each page of our own reference; evidence that says less is no evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from modeproof.ground import evidence
+from modeproof.ground.places import documents, root
+from modeproof.lane import demands as lane
+from modeproof.lane.keep import NOTHING
+from modeproof.lane.verify import stages_of_verify
+from modeproof.registers.demands import load_demand_rows
+from modeproof.report.demanded import doubt_on_demands, id_of, subjects
+from modeproof.report.evidence_judge import contradiction
+from programs.commands import reference_demands
+from programs.semantics.reference import targets
+
+Edit = Callable[[dict[str, Any]], Any]
+
+
+def result() -> dict[str, Any]:
+    """What evidence says where all is proved."""
+    rows = load_demand_rows(root(), "edm").of["sf_edm"]
+    return {
+        "device": "sf_edm",
+        "demands": [{"id": row.id, "word": "PROVED", "how": "induction over 1 scan"} for row in rows],
+        "answers": {"files": len(rows), "other_than_unsat": {"z3": {}, "cvc5": {}}},
+    }
+
+
+def test_each_target_is_proved_in_each_of_its_profiles() -> None:
+    named = [one for document in documents(root()) for one in subjects(root(), document)]
+    left = {
+        target for document in documents(root()) for target in load_demand_rows(root(), document).unproved
+    }
+    assert {target for target, _ in named} == set(targets()) - left and "plc" not in left
+    assert ("sf_edm", "cautious") in named and ("plc", "letter") in named and ("plc", "cautious") not in named
+
+
+def test_the_full_lane_has_a_task_for_each() -> None:
+    tasks, kept = lane.proofs_of_demands(root(), documents(root()), NOTHING)
+    assert len(tasks) == sum(len(list(subjects(root(), document))) for document in documents(root()))
+    assert not kept and "proofs" in dict(stages_of_verify())
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (lambda found: None, ""),
+        (lambda found: found["demands"].pop(), "it says nothing of"),
+        (lambda found: found["demands"][0].update(word="UNKNOWN"), ": UNKNOWN"),
+        (lambda found: found["answers"]["other_than_unsat"]["z3"].update({"001": "sat"}), "both solvers"),
+        (lambda found: found["answers"]["other_than_unsat"].pop("cvc5"), "both solvers"),
+        (lambda found: found["answers"].update(files=1), "both solvers"),
+    ],
+    ids=["whole", "one is missing", "one is open", "z3 denies", "without cvc5", "one file"],
+)
+def test_evidence_is_judged_by_its_figures(edit: Edit, said: str) -> None:
+    found = result()
+    edit(found)
+    doubt = doubt_on_demands(root(), "edm", found)
+    assert said in doubt and bool(said) == bool(doubt)
+    record = {
+        "kind": "demands",
+        "as_expected": True,
+        "verdict": "PROVED",
+        "expected": "PROVED",
+        "result": found,
+    }
+    document: Any = type("Document", (), {"name": "edm"})
+    assert contradiction(root(), document, record) == doubt
+
+
+@pytest.mark.parametrize(("status", "verdict"), [(0, "PROVED"), (1, "REFUTED"), (2, "UNKNOWN")])
+def test_the_verdict_is_that_of_the_proofs(
+    status: int, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    answers: Any = type(
+        "A", (), {"files": 16, "answers": {"z3": {}, "cvc5": {}}, "lines": lambda self: ["no"]}
+    )()
+    shown: Any = type("S", (), {"status": status, "found": (), "answers": answers})()
+    monkeypatch.setattr(reference_demands, "shown", lambda judgement: shown)
+    monkeypatch.setattr(reference_demands, "judgement_of", lambda *given: None)
+    written: list[dict[str, Any]] = []
+    monkeypatch.setattr(evidence, "write", lambda place, record: written.append(record))
+    record = lane.prove_demands(root(), "edm", "sf_edm", "letter")
+    assert written == [record] and record["verdict"] == verdict and record["id"] == id_of("sf_edm", "letter")
+    assert record["as_expected"] == (status == 0) and bool(record["reason"]) == bool(status)
