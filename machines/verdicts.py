@@ -69,6 +69,8 @@ class Machine(Asking):
     tries: int = TRIES
     leaves: bool = False
     """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
+    gave_up: str = "no invariant was found"
+    """Why a proof did not come about: a busy computer may give a question too little time."""
 
     @property
     def files(self) -> Mapping[str, str]:
@@ -150,7 +152,8 @@ class Machine(Asking):
         self.tell(f"{len(found.clauses)} candidates of invariants")
         try:
             return found.thinned(time.process_time() + seconds, self.on(random.Random(1)))
-        except TimeoutError:
+        except TimeoutError as error:
+            self.gave_up = f"no invariant was found: {error}"
             return []
 
     def candidates(self, samples: Sequence[Sample]) -> Candidates:
@@ -253,7 +256,7 @@ class Machine(Asking):
             if scans := self.broken(asked.id):
                 found.append(self.refuted(asked, row, rule, scans, own))
             elif not holds[asked.id]:
-                why = "a value may leave its type" if self.leaves else "no invariant was found"
+                why = "a value may leave its type" if self.leaves else self.gave_up
                 found.append(Verdict(asked, row, "UNKNOWN", f"{why}; {self.looked(asked.id)}", reached))
             elif against:
                 how = f"the proof is not confirmed: {against}"
@@ -287,7 +290,7 @@ class Machine(Asking):
                 self.search.look(some, rest, most)
 
     def reach(self, asked: Sequence[Asked]) -> None:
-        """Look for scans to what no run has reached; they are samples then."""
+        """Look for scans to what no run has reached."""
         missed = [
             trigger(one.id, number)
             for one in asked

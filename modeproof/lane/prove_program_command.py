@@ -67,6 +67,13 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="TOML",
         help="in the place of --target: properties of your own program",
     )
+    parser.add_argument(
+        "--against",
+        type=Path,
+        metavar="OLD",
+        help="in the place of --target: another program, such as the one before a change; any language",
+    )
+    parser.add_argument("--old-unit", metavar="NAME", help="with --against: the unit of OLD that is meant")
     add_options(parser, judge, about)
     parser.set_defaults(run=run)
     return parser
@@ -87,8 +94,10 @@ def judge(args: argparse.Namespace) -> Outcome:
     """Judge the program, print the verdict, and return what was found. Raises Unjudged."""
     _look(args)
     with needing_solvers():
-        from programs.commands import prove_program, prove_properties
+        from programs.commands import prove_against, prove_program, prove_properties
     with _not_too_deep(args.files):
+        if args.against is not None:
+            return prove_against.judge_against(args)
         if args.property is not None:
             return prove_properties.judge_properties(args)
         return prove_program.judge_program(args)
@@ -97,9 +106,9 @@ def judge(args: argparse.Namespace) -> Outcome:
 def about(args: argparse.Namespace) -> About:
     """What the arguments ask for."""
     words: list[object] = ["modeproof", "prove-program", *args.files]
-    for name in ("target", "property", "unit", "binding"):
+    for name in ("target", "property", "against", "unit", "old_unit", "binding"):
         if (given := getattr(args, name)) is not None:
-            words += [f"--{name}", given]
+            words += [f"--{name.replace('_', '-')}", given]
     if args.latency is not None:
         words += ["--latency", args.latency]
     words += ["--same"] * (args.same and not args.codes) + ["--codes"] * args.codes + ["--wrap"] * args.wrap
@@ -107,9 +116,14 @@ def about(args: argparse.Namespace) -> About:
     return About(
         command="prove-program",
         subject=", ".join(map(shown_path, args.files)),
-        target=args.target or shown_path(args.property or ""),
+        target=args.target or shown_path(args.property or args.against or ""),
         again=" ".join(quoted(str(word)) for word in words),
-        files={"program": args.files, "binding": [args.binding], "properties": [args.property]},
+        files={
+            "program": args.files,
+            "binding": [args.binding],
+            "properties": [args.property],
+            "old": [args.against],
+        },
         part=args.unit or "",
     )
 
@@ -130,11 +144,11 @@ def _not_too_deep(files: Sequence[Path]) -> Iterator[None]:
 
 def _look(args: argparse.Namespace) -> None:
     """Raises Unjudged for options that do not go together, or where a package is missing."""
-    asked = [name for name in ("target", "property", "recheck") if getattr(args, name) is not None]
+    asked = [name for name in ("target", "property", "against", "recheck") if getattr(args, name) is not None]
     if len(asked) != 1 or (args.recheck is None) != bool(args.files):
         raise Unjudged(
             "prove-program: name the program's files and --target T, or --property TOML for a program of "
-            "your own; or a certificate alone, with --recheck"
+            "your own, or --against OLD for two programs; or a certificate alone, with --recheck"
         )
     beside = {
         "recheck": (
@@ -150,13 +164,16 @@ def _look(args: argparse.Namespace) -> None:
             "same",
             "codes",
             "latency",
+            "old_unit",
             "flips",
         ),
-        "property": ("vector", "same", "codes", "latency", "flips"),
+        "target": ("old_unit",),
+        "against": ("vector", "same", "codes", "latency", "certificate", "flips"),
+        "property": ("vector", "same", "codes", "latency", "old_unit", "flips"),
     }
     for name in beside.get(asked[0], ()):
         if getattr(args, name) not in (None, False):
-            raise Unjudged(f"--{name} has no effect with --{asked[0]}; leave it out")
+            raise Unjudged(f"--{name.replace('_', '-')} has no effect with --{asked[0]}; leave it out")
     args.same = args.same or args.codes
     if not 0 <= (args.latency or 0) <= MOST_LATENCY:
         raise Unjudged(f"--latency {args.latency}: 0 to {MOST_LATENCY} scans")

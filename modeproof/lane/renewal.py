@@ -49,6 +49,9 @@ PAGES = {"awl": (), "st": ("--target",)}
 """Beside it, a script for each page about faulty programs in other languages, with its edits in a file of the
 same name; and what comes before a target where it can judge the programs of one alone."""
 
+SMALL = 300_000
+"""Generated states of a run of seconds: it is judged anew though it is in the exhaustive lane alone."""
+
 
 class Refused(Exception):
     """The specification does not accept the change, or a pin would move without a reason."""
@@ -144,14 +147,14 @@ def _accept(work: Renewal, stale: Stale) -> None:
 
 
 def _runs_to_check(work: Renewal, stale: Stale) -> Iterator[Run]:
-    """If vectors or stories are stale, the specification has changed: every run of lane full, and those of
-    the stories. If only pinned texts have, the runs that check one of them. A story of a new run has changed
-    nothing.
+    """If vectors or stories are stale, the specification has changed: every run of lane full and every small
+    one, and those of the stories. If only pinned texts have, the runs that check one of them. A story of a
+    new run has changed nothing.
     """
     told = known(work.document)
     checked = {pin.removeprefix("checked.") for pin in stale.pins}
     for run in load_runs(work.tree, work.name):
-        full = "full" in run.lanes
+        full = "full" in run.lanes or (run.generated or 0) <= SMALL
         changed = (
             stale.targets or told & {*stale.stories} or checked & {*run.properties, *_names(work.tree, run)}
         )

@@ -22,6 +22,7 @@ from modeproof.registers.rooms import check_imports, check_no_document_known, ch
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.tables import check_pages
 from modeproof.registers.vector_files import check_vectors
+from modeproof.registers.views import check_views
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ def judge(document: Document) -> Judgement:
         *cross_check(document, sources),
         *check_readings(document, sources.modules),
         *check_tops(document, sources.modules),
+        *check_views(document, sources.modules),
         *(faults := check_responses(document, sources)),
         *(() if faults else check_document_page(document, sources)),
         *lost,

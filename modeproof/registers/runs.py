@@ -159,7 +159,9 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
     data = read_toml(root, root / "spec" / document / "runs.toml")
     if data.pop("document", document) != document:
         raise Unjudged(f"{source}: document is not the name of its folder, {document!r}")
-    only_keys(source, data, ("document", "constants", "moved", "run", "based", "series", "measured_on"))
+    only_keys(
+        source, data, ("document", "constants", "moved", "hidden", "run", "based", "series", "measured_on")
+    )
     rows = dict(_rows(source, data))
     found = {name: _run(document, source, values) for name, values in rows.items() if "base" not in values}
     for name, values in rows.items():
@@ -176,6 +178,15 @@ def reasons_of(root: Path, document: str) -> tuple[str, ...]:
     source = f"spec/{document}/runs.toml"
     data = read_toml(root, root / "spec" / document / "runs.toml")
     return typed(tuple[Text, ...], data.get("moved", []), f"{source}: moved")
+
+
+def hidden_of(root: Path, document: str) -> dict[str, str]:
+    """The variables that a view may hide from a property that reads them, each with its reason. Raises
+    Unjudged like `load_runs`.
+    """
+    source = f"spec/{document}/runs.toml"
+    data = read_toml(root, root / "spec" / document / "runs.toml")
+    return typed(dict[Name, Text], data.get("hidden", {}), f"{source}: hidden")
 
 
 def _rows(source: str, data: Table) -> Iterator[tuple[str, Table]]:

@@ -264,11 +264,11 @@ def outcome_of_target(
     lines = dict(about(product))
     bounds = [f"{label}: {lines[label]}" for label in ("compared", "parameters", "inputs", "numbers")]
     beside = followed.judgement.beside
-    common = _common(args, record, text, clock)
+    known = common(args, record, text, clock)
     if args.same and same is not None and followed.word != "BREAKS":
-        common["sentence"] = f"{record['verdict']}: {followed.sentence}; same as the reference: {same.word}"
+        known["sentence"] = f"{record['verdict']}: {followed.sentence}; same as the reference: {same.word}"
     else:
-        common["sentence"] = followed.sentence
+        known["sentence"] = followed.sentence
     return Outcome(
         target=binding.reference.device.name,
         document=binding.reference.document,
@@ -278,7 +278,7 @@ def outcome_of_target(
         profile=profile_of(binding) if args.same else "",
         assumptions=[*beside.assumed.words(), *assumed(binding.source, binding.unit, binding.steady)],
         reason=_open(followed, same) if record["status"] == 2 else "",
-        **common,
+        **known,
     )
 
 
@@ -364,8 +364,8 @@ def outcome_of_properties(
     order = ("REFUTED", "UNKNOWN", "EMPTY", "HOLDS", "PROVED")
     word = next(word for word in order if word in words)
     counts = ", ".join(f"{words.count(one)} {one}" for one in order if one in words)
-    common = _common(args, record, text, clock)
-    common["sentence"] = f"{word}: {counts}: {common['sentence']}"
+    known = common(args, record, text, clock)
+    known["sentence"] = f"{word}: {counts}: {known['sentence']}"
     low, high = cell.scan_time
     times = f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
     return Outcome(
@@ -374,11 +374,12 @@ def outcome_of_properties(
         strength=f"every input, scans of {times}, from power-up, for ever",
         demands=[demand_of_property(cell, one, questions) for one in found],
         assumptions=list(assumed(cell.source, cell.unit)),
-        **common,
+        **known,
     )
 
 
-def _common(args: argparse.Namespace, record: Mapping[str, Any], text: str, clock: Clock) -> dict[str, Any]:
+def common(args: argparse.Namespace, record: Mapping[str, Any], text: str, clock: Clock) -> dict[str, Any]:
+    """What the record of each run has."""
     first, *_ = text.partition("\n")
     reference = hashlib.sha256(json.dumps(record["reference"], sort_keys=True).encode()).hexdigest()
     return {

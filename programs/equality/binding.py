@@ -21,6 +21,7 @@ import z3
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
 from modeproof.registers.profiles import LETTER, PROFILES, value_in
+from programs.equality import misfits
 from programs.language.tree import BOOL, Array, Scalar, Source, Unit
 from programs.semantics.reference import Reference
 from programs.semantics.terms import Slot, slots
@@ -60,6 +61,7 @@ class Binding:
                 raise Unjudged(f"binding: {name} is no output, so it cannot be left out")
             if name in self.names:
                 raise Unjudged(f"binding: {name} is under [names] and under left_out")
+        misfits.refuse(self.reference, self.unit, self.left_out, self._path)
         if not self.compared:
             raise Unjudged("binding: no output is compared")
         try:

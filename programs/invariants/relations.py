@@ -245,7 +245,7 @@ class Vocabulary:
             if left not in self.keys:
                 continue
             for right, column in columns.items():
-                if not right.startswith("p:"):
+                if not right.startswith("p:") or right == left:
                     continue
                 among = {name: moving[name] for name in parameters if self.sorts[name] == self.sorts[right]}
                 table = _table(columns[left], column, among)

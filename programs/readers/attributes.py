@@ -6,23 +6,28 @@ Dropped is what cannot change it: how a tool shows a name, what its checks repor
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
 RETAINED: Final = frozenset({"tcretain", "tcpersistent", "tcinitsymbol"})
 """The variable behind it keeps its value, or gets one from outside, before the first scan."""
 _DROPPED: Final = frozenset({
-    "analysis", "displaymode", "hide", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
+    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
     "qualified_only", "reflection", "strict", "to_string",
     "tcdisplayscale", "tchidesubitems", "tcignorepersistent", "tclinkto", "tclinktooso", "tcnosymbol",
 })  # fmt: skip
 _DROPPED_WITH: Final = {"symbol": ("none", "read"), "monitoring": ("variable",), "opc.ua.da": ("0",)}
 """By their values: others let a client write, or carry out code while somebody watches."""
-_OPEN: Final = ("symbol", "opc")
+_OPEN: Final = ("symbol", "opc", "pytmc")
+_WAYS: Final = re.compile(r"\bio\s*:\s*(\w+)")
 
 
 def dropped(name: str, value: str) -> bool:
     """Whether an attribute changes nothing."""
     key = name.strip().lower()
+    if key == "pytmc":  # what EPICS shows of it; without `io: i` it writes as well
+        ways = _WAYS.findall(value.lower())
+        return bool(ways) and set(ways) <= {"i", "ro"}
     return key in _DROPPED or value.strip().lower() in _DROPPED_WITH.get(key, ())
 
 

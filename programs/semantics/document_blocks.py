@@ -215,10 +215,11 @@ def with_blocks(source: Source) -> Source:
         for variable in unit.variables.values():
             for name in blocks_in(variable.type):
                 key = name.upper()
+                if key in units or key in BLOCKS or (found := block(key)) is None:
+                    continue
                 if key in source.refused:
                     raise source.refused[key]  # it is there, and the published one is another
-                if key not in units and key not in BLOCKS and (found := block(key)) is not None:
-                    units[key] = found.unit()
+                units[key] = found.unit()
     return replace(source, units=units)
 
 

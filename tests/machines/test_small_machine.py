@@ -420,3 +420,14 @@ def test_a_role_that_nobody_can_play_is_refused(row: str, said: str, folder: Pat
         assert machine.cast
     line = WIRING.count("\n") + 2
     assert f"my.toml:{line}: roles.{row.partition(' ')[0]}: {said}" in caught.value.message
+
+
+def test_a_question_without_an_answer_in_time_is_said(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(*given: object) -> None:
+        raise TimeoutError("a question had no answer: timeout")
+
+    monkeypatch.setattr("machines.candidate_invariants.Candidates.thinned", late)
+    held = ("held", 'after = "Stop"\nonly_once = "Start"\nholds = "S_Drive"')
+    word, how = words(folder, CLOSED, held)["held"]
+    why = "no invariant was found: a question had no answer: timeout"
+    assert (word, how) == ("UNKNOWN", f"{why}; none in 100 scans, all inputs and scan times")

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from programs.equality.binding import read_binding
+from programs.equality.comparison import make
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "st" / "sf_edm.st"
 INPUTS = ("Activate", "S_OutControl", "S_EDM1", "S_EDM2", "S_StartReset", "Reset", "MonitoringTime")
@@ -89,3 +91,17 @@ def test_a_binding_to_no_member_is_refused(
     )
     assert main(["prove-program", *given]) == 2
     assert cause in capsys.readouterr().err
+
+
+def test_all_names_that_lack_come_with_a_binding(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = EXAMPLE.read_text("utf-8")
+    for old, new in (("S_OutControl", "Demand"), ("S_EDM1", "Fb1_EDM"), ("MonitoringTime", "MonTime")):
+        text = text.replace(old, new)
+    program, binding = tmp_path / "edm.st", tmp_path / "b.toml"
+    program.write_text(text, "utf-8")
+    assert main(["prove-program", str(program), "--target", "sf_edm"]) == 2
+    said = capsys.readouterr().err
+    assert "no input S_OutControl, S_EDM1" in said and "has Demand, Fb1_EDM, MonTime" in said
+    binding.write_text(said[said.index("names = {") : said.index("}") + 1] + "\n", "utf-8")
+    taken = make([program], "sf_edm", None, read_binding(binding), False).binding
+    assert taken.free_parameters == ("MonitoringTime_ms",) and len(taken.bound_paths) == 7

@@ -38,7 +38,8 @@ FILES = {
     "GVL.TcGVL": tc(
         "GVL",
         "GVL",
-        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n  Steps: INT; Lamp AT %Q*: BOOL;\n"
+        "{attribute 'qualified_only'}\nVAR_GLOBAL\n  Guard AT %I* : BOOL;\n"
+        "  {attribute 'pytmc' := '\n  pv: S\n  io: i'} Steps: INT; Lamp AT %Q*: BOOL;\n"
         "END_VAR\n"
         "VAR_GLOBAL CONSTANT\n  LAST : INT := 3;\nEND_VAR",
     ),
@@ -140,6 +141,12 @@ REFUSED = {
         "VAR_GLOBAL\n  Guard",
         "{attribute 'call_after_init'}\nVAR_GLOBAL\n  Guard",
         "call_after_init",
+    ),
+    "what a client writes": (
+        "GVL.TcGVL",
+        "VAR_GLOBAL\n  Guard",
+        "VAR_GLOBAL\n  {attribute 'pytmc' := '\n  pv: G\n  io: io'}\n  Guard",
+        "'pytmc' lets a client write the variable",
     ),
     "inheritance": ("FB_Lamp.TcPOU", "FB_Lamp\nVAR", "FB_Lamp EXTENDS FB_Base\nVAR", "FB_Lamp.TcPOU"),
     "another name": (
