@@ -237,8 +237,9 @@ class Judgement:
             way, looked = shortest(self.system, bad, FEW_SCANS, started + seconds)
             if way is not None:
                 return self._replayed(asked, self.beside.wires.run_of(way))
-            proof = spacer_over_numbers(self.system, bad, [], seconds / 2)
+            proof = spacer_over_numbers(self.system, bad, [], seconds / 12)
             proof = proof or spacer(self.system, bad, [], seconds / 4)
+            proof = proof or spacer_over_numbers(self.system, bad, [], seconds / 2)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
