@@ -239,10 +239,11 @@ class Judgement:
                 return self._replayed(asked, self.beside.wires.run_of(way))
             proof = spacer_over_numbers(self.system, bad, [], seconds / 12)
             proof = proof or spacer(self.system, bad, [], seconds / 4)
-            proof = proof or spacer_over_numbers(self.system, bad, [], seconds / 2)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
+        if proof is None and not self.replays.broken:
+            proof = spacer_over_numbers(self.system, bad, [], seconds / 2)
         if proof is not None:
             return Found(asked, "PROVED", proof.by, proof=proof)
         way, looked = shortest(self.system, bad, MOST_FOUND, time.process_time() + seconds / 4)
