@@ -112,6 +112,7 @@ def model_of(machine: Machine, folder: Path) -> str:
     model = Module(machine.wiring, read_blocks(folder / "tlc.toml"), there, asked)
     title = f"{machine.wiring.table.title}, over the contracts of its blocks."
     left = [f"Left out, for the wiring has no {lost}: {id}." for id, lost in machine.lacking.items()]
+    left += [f"Left out, for the machine has {why}: {id}." for id, why in machine.not_asked.items()]
     return model.text("MachineCell", (title, *MADE, *left))
 
 

@@ -304,7 +304,7 @@ def test_a_model_leaves_out_what_the_wiring_lacks(tmp_path: Path) -> None:
     mine.write_text(without_the_beam(), "utf-8")
     assert main(["machine", str(mine), "--model", str(target)]) == 0
     made = target.read_text("utf-8")
-    assert "Left out, for the wiring has no ResetBeam: beam-needs-reset." in made
+    assert "Left out, for the machine has no SF_TestableSafetySensor: beam-needs-reset." in made
     assert "BeamNeedsReset ==" not in made
     assert "UnlockAtRest ==" in made
 
