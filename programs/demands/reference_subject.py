@@ -9,7 +9,7 @@ from typing import Any
 
 import z3
 
-from modeproof.registers.profiles import value_in
+from modeproof.registers.profiles import CAUTIOUS, value_in
 from programs.demands.subject import Step
 from programs.equality.replay import Run
 from programs.invariants.induction import conjuncts
@@ -21,7 +21,9 @@ CONTROL = "before.control"
 
 @dataclass(frozen=True)
 class Implementation:
-    """A device of refimpl. Parameters that choose have the values of the profile, all others any."""
+    """A device of refimpl. Parameters that choose have the values of the profile, all others any, and so
+    has a time that chooses, but in the letter.
+    """
 
     reference: Reference
     profile: str
@@ -90,7 +92,7 @@ class Implementation:
         return {
             name: self.reference.in_code(name, value_in(of, self.profile))
             for name, of in signals
-            if of.project or of.cautious is not None
+            if of.project or (of.cautious is not None and not (self.profile == CAUTIOUS and of.type == "ms"))
         }
 
     @property

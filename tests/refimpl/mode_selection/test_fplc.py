@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[3]
 INTERFACE = tomllib.loads((ROOT / "spec/mode_selection/interface.toml").read_text(encoding="utf-8"))
 FPLC = INTERFACE["devices"]["fplc"]
 
-PARAMS = Params(T_ON_ms=800, T_SEQ_ms=900, T_REM_ms=700, T_DWELL_ms=400)
+PARAMS = Params(800, 900, "LA", T_REM_ms=700, T_DWELL_ms=400, SELECTIONS="again")
 FROM_ONES = replace(PARAMS, T_ON_ms=900, T_SEQ_ms=800, T_SEQ_FROM="ones")
 # A machine where no level permits a mode that the text does not say to be contained in it. E-47
 TEXT_ORDER = replace(
@@ -564,16 +564,16 @@ def test_a_wrong_parameter_is_refused_by_name(field: str, value: object) -> None
 
 
 def test_the_dwell_must_be_shorter_than_the_removal() -> None:
-    assert Params(T_REM_ms=501).T_DWELL_ms == 500
+    assert Params(T_REM_ms=501, T_DWELL_ms=500).T_DWELL_ms == 500
     with pytest.raises(ParameterError, match="T_DWELL_ms: expected less than T_REM_ms"):
-        Params(T_REM_ms=500)
+        Params(T_REM_ms=500, T_DWELL_ms=500)
 
 
 def test_one_window_cannot_be_shorter_than_the_wait_for_ones() -> None:
-    assert Params(T_ON_ms=900, T_SEQ_ms=900).T_SEQ_FROM == "LA"
+    assert Params(T_ON_ms=900, T_SEQ_ms=900, T_SEQ_FROM="LA").T_SEQ_ms == 900
     assert Params(T_ON_ms=900, T_SEQ_ms=1, T_SEQ_FROM="ones").T_SEQ_ms == 1
     with pytest.raises(ParameterError, match=r"^T_SEQ_ms: expected at least T_ON_ms \(900\)"):
-        Params(T_ON_ms=900, T_SEQ_ms=899)
+        Params(T_ON_ms=900, T_SEQ_ms=899, T_SEQ_FROM="LA")
 
 
 def test_a_control_state_that_does_not_exist_never_switches() -> None:

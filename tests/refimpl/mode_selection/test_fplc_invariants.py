@@ -10,7 +10,7 @@ from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import CH, NONE, RE, SE, SW, decode
 from refimpl.mode_selection.fplc import Inputs, Outputs, Params, State, Step
 
-PARAMS = Params(T_ON_ms=1000, T_SEQ_ms=1000, T_REM_ms=1000, T_DWELL_ms=500)
+PARAMS = Params(T_SEQ_FROM="LA", T_DWELL_ms=500, SELECTIONS="again")
 
 CHECKED = settings(max_examples=120, deadline=None, derandomize=True)
 

@@ -24,7 +24,7 @@ def stand_in(data: bytes) -> int:
 
 
 EKS_PARAMS = eks.Params(stand_in, operating_state=7, dip_switches=0x001)
-FPLC_PARAMS = fplc.Params()
+FPLC_PARAMS = fplc.Params(T_SEQ_FROM="LA", T_DWELL_ms=500, SELECTIONS="again")  # the profile cautious
 
 
 PERMITTED = [(level, mode) for level in range(5) for mode in range(level + 1)]
@@ -94,7 +94,7 @@ def switched(level: int, mode: int) -> System:
 
 
 def test_the_panel_and_the_f_plc_take_the_same_permissions() -> None:
-    only_own = fplc.Params(PERMITS_2=(False, False, True, False, False))
+    only_own = replace(FPLC_PARAMS, PERMITS_2=(False, False, True, False, False))
     system = until(key_flows.power_up(EKS_PARAMS, only_own), idle)
     system = until(insert_key(system, key_of(2)), screen("select"))
     assert system.hmi_out.enabled == (False, False, True, False, False)

@@ -17,7 +17,12 @@ from refimpl.mode_selection.key_flows import System
 TICK_MS = 200
 EKS_PARAMS = eks.Params(lambda data: len(data), T_PULSE_ms=TICK_MS)
 FPLC_PARAMS = fplc.Params(
-    T_ON_ms=5 * TICK_MS, T_SEQ_ms=5 * TICK_MS, T_REM_ms=9 * TICK_MS, T_DWELL_ms=2 * TICK_MS
+    T_ON_ms=5 * TICK_MS,
+    T_SEQ_ms=5 * TICK_MS,
+    T_REM_ms=9 * TICK_MS,
+    T_DWELL_ms=2 * TICK_MS,
+    T_SEQ_FROM="LA",
+    SELECTIONS="again",
 )
 
 BESIDE = {"MW01": ("MW02",), "MW03": ("MW02", "MW04"), "MW05": ("MW04", "MW06"), "MW07": ("MW06",)}
