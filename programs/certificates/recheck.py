@@ -137,7 +137,7 @@ def _about_demands(
     page, of = f"the page ({record['document']})", record["subject"]
     if answers.status == 0 and of == REFERENCE:
         yield f"{answers.word}: the reference keeps {count} demands of {page}, for ever"
-        yield f"  so does     {name}, which the certificate in the folder above shows to be equal to it"
+        yield f"  so          {name} FOLLOWS {page}: the certificate in the folder above shows it to be equal"
     elif answers.status == 0:
         yield f"{answers.word}: {name} FOLLOWS {page}: {count} demands, for ever"
     else:

@@ -117,6 +117,14 @@ class Judgement:
             ]
         return found
 
+    def longer(self, seconds: float, found: Sequence[Found]) -> list[Found]:
+        """What is still not known, asked again with more time."""
+        self.seconds = seconds
+        self.__dict__.pop("lemmas", None)
+        if all(one.word != "UNKNOWN" or one.asked.id != TYPES for one in found):
+            return [self._judge(one.asked) if one.word == "UNKNOWN" else one for one in found]
+        return self.all()
+
     # ------------------------------------------------------------ runs with plain values
 
     @cached_property

@@ -76,7 +76,7 @@ def test_both_certificates_are_written_and_checked(
     assert "FOLLOWS" in said and f"by equality {Tired.left}" in said
     assert "of equality" in said and "of the demands, of the reference" in said
     assert main(["prove-program", "--recheck", str(folder)]) == 0
-    assert "which the certificate in the folder above shows to be equal to it" in capsys.readouterr().out
+    assert "the certificate in the folder above shows it to be equal" in capsys.readouterr().out
     with pytest.raises(Unjudged, match="name the folder above"):
         folders_of(folder / "follows")
     file = folder / "follows" / "certificate.json"
