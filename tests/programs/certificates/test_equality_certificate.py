@@ -89,6 +89,7 @@ def test_every_pair_is_reached_by_scans(folder: Path) -> None:
     assert len(rows) == 4 and all(row["reached_by"] is not None for row in rows)
 
 
+@pytest.mark.deep
 def test_the_command_writes_and_checks_a_certificate(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
