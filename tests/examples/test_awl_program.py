@@ -263,6 +263,7 @@ def test_the_command_tells_expected_from_not_and_from_unjudged(capsys: pytest.Ca
     assert "no-such-fault" in capsys.readouterr().err
 
 
+@pytest.mark.deep
 def test_the_good_program_in_a_faulty_place_is_not_rejected(tmp_path: Path) -> None:
     fault = next(one for one in CAUGHT if one.suite == "words")
     same = replace(fault, new=fault.old)

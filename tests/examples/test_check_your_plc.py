@@ -66,6 +66,7 @@ def _wrong(folder: Path, blocks: list[tuple[str, str]], shown: list[str]) -> lis
     return wrong
 
 
+@pytest.mark.deep
 def test_every_command_of_the_page_does_what_the_page_says(folder: Path) -> None:
     builds = [commands for kind, commands in BLOCKS if kind == "sh build"]
     assert len(builds) == 1 and builds[0].startswith("make -C ../modeproof kit\n")
