@@ -603,9 +603,9 @@ REGISTERS = (
     register(
         "a finding about a reading that no run tries",
         RUNS,
-        'NEG_SF_EDM_request_before_timeout = { reading = "RequestBeforeTimeout"',
-        'NEG_SF_EDM_request_before_timeout = { reading = "StaticResetIgnored"',
-        "RequestBeforeTimeout",
+        'NEG_SF_EDM_demands_control_by_edge = { reading = "ControlByEdge"',
+        'NEG_SF_EDM_demands_control_by_edge = { reading = "StaticResetIgnored"',
+        "ControlByEdge",
     ),
     Case(
         "a published file is not the one that was sealed",
