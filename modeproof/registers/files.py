@@ -39,6 +39,17 @@ def read_toml(root: Path, path: Path) -> dict[str, Any]:
         raise Unjudged(f"{shown(root, path)}: not valid TOML: {error}") from None
 
 
+def read_own_toml(path: Path) -> tuple[str, dict[str, Any]]:
+    """Text and tables of a file that a user names. Raises Unjudged, with the line, when it is not TOML."""
+    try:
+        text = path.read_text("utf-8")
+        return text, tomllib.loads(text)
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{path}: no TOML: {error}") from None
+
+
 def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A Markdown table that ends with a line end."""
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]

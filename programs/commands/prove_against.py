@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from modeproof.kit.files import write_text
 from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Counterexample, Demand, Outcome, Problem, Rule, Scan, shown_path
+from modeproof.registers.files import read_own_toml
 from programs.certificates import equality_certificate
 from programs.certificates.certificate_folder import tools
 from programs.commands.outcomes import common, spot_of
@@ -69,13 +69,7 @@ def judge_against(args: argparse.Namespace) -> Outcome:
 
 def read_names(path: Path) -> Names:
     """What the file of a binding says. Raises Unjudged."""
-    try:
-        text = path.read_text("utf-8")
-        table = tomllib.loads(text)
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{path}: no TOML: {error}") from None
+    text, table = read_own_toml(path)
     keys = ("names", "left_out", "assume", "unless")
     for key in table:
         if key not in keys:

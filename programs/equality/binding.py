@@ -9,7 +9,6 @@ them as interface.toml lists them; if there are two, a BOOL will do.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -20,6 +19,7 @@ import z3
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
+from modeproof.registers.files import read_own_toml
 from modeproof.registers.profiles import LETTER, PROFILES, value_in
 from programs.equality import misfits
 from programs.language.tree import BOOL, Array, Scalar, Source, Unit
@@ -385,21 +385,12 @@ def _plain_name(name: str, loose: bool) -> str:
 
 def read_assumed(path: Path) -> dict[str, Any]:
     """The table [assume] of the file of a binding; see `programs.demands.assumptions`. Raises Unjudged."""
-    return dict(_table(path).get("assume", {}))
-
-
-def _table(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{path}: no TOML: {error}") from None
+    return dict(read_own_toml(path)[1].get("assume", {}))
 
 
 def read_binding(path: Path) -> dict[str, Any]:
     """The arguments of a Binding that a TOML file gives. Raises Unjudged."""
-    table = _table(path)
+    table = read_own_toml(path)[1]
     keys = {"names": dict, "parameters": dict, "left_out": list, "profile": str, "assume": dict}
     words: dict[type, str] = {dict: "table", list: "list of names", str: "text"}
     for key, value in table.items():

@@ -16,13 +16,13 @@ looked at after every scan. `holds` with `only_if`: where the first is true, so 
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.registers.files import read_own_toml
 from programs.language.calls import called_functions
 from programs.language.shared_memory import asked
 from programs.language.subset import check_below
@@ -102,13 +102,7 @@ class Beside:
 def read_questions(path: Path, beside: Beside | None = None) -> Questions:
     """The properties of a TOML file. Raises Unjudged with file, line and cause."""
     beside = beside or Beside()
-    try:
-        text = path.read_text("utf-8")
-        table = tomllib.loads(text)
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{path}: no TOML: {error}") from None
+    text, table = read_own_toml(path)
     allowed = ["property", *beside.tables, *(["scan_time_ms"] if beside.scan_ms is None else [])]
     for key in table:
         if key not in allowed:
