@@ -92,6 +92,8 @@ EXPLAINED: dict[str, str] = {
         judge-51393391 judge-bab97deb judge-04bb6755 judge-8e095e5a judge-ad9faa06 judge-ccc32c17
         judge-1fbaf871
         relation-4bbeee97 relation-34d841e7 relation-3f948da3 relation-faeec462 relation-098fba2c""",
+    "patience without a budget: more scans than is needed, and no verdict is weaker": """
+        relation-8667e43e""",
     "a verdict that is not DIFFERS has a reason, or no difference": """
         judge-31ae0bf1 judge-57a299fa judge-0fa96af2 judge-0e372bdf""",
     "two questions that are not both answered with yes, in the other order": """
