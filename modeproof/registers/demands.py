@@ -26,7 +26,7 @@ REASONS = ("definition", "drawing", "open", "unseen")
 """Why nothing is demanded: it defines a name; only a drawing could say; its words allow more than one
 behaviour; nothing on the wires shows it.
 """
-_HEAD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+_HEAD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=A)(?=[A-Z])")
 
 
 class Demand(Entry, frozen=True, kw_only=True):

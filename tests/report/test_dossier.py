@@ -269,4 +269,4 @@ def test_a_finding_names_the_shortest_ways_and_what_is_missing(root: Path) -> No
     assert "1 more run as expected" in finding and "VIOLATED" not in finding
     without(root, "NEG_Box_eager")
     finding = text_of(make(root).html.partition('id="finding-E-01"')[2].partition("<details")[0])
-    assert "? not there a run of lane full NEG_Box_eager" in finding
+    assert "? not there : 1 of its runs and proofs" in finding

@@ -9,7 +9,7 @@ from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.registers.standing import CLASSES as CLASSES_OF_ALL
-from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
+from modeproof.report.claims import NOT_THERE, Result, result_of, steps_of, theorem_result, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
 from modeproof.report.verdicts import ASIDE
@@ -95,7 +95,8 @@ def _shown(rows: list[dict[str, Any]]) -> dict[str, Any]:
         "runs": sum(row["kind"] == "run" for row in good) - len(falls[:MOST]),
         "proofs": sum(row["kind"] == "theorem" for row in good),
         "aside": sum(row["word"] == ASIDE for row in rows),
-        "wrong": [row for row in rows if not row["good"] and row["word"] != ASIDE],
+        "missing": sum(row["word"] == NOT_THERE for row in rows),
+        "wrong": [row for row in rows if not row["good"] and row["word"] not in (ASIDE, NOT_THERE)],
     }
 
 

@@ -34,7 +34,8 @@ def part(sources: Sources) -> Part:
 
 def _document(sources: Sources, document: Document, rows: dict[tuple[str, str], str]) -> dict[str, Any]:
     chosen = {name for needs in needed_by(sources, document).values() for name in needs}
-    chosen |= {row.id for row in load_demand_rows(document.root, document.name).rows}
+    demanded = {row.id for row in load_demand_rows(document.root, document.name).rows}
+    chosen |= demanded
     by: dict[str, list[Claim]] = {}
     for claim in claims(sources, document):
         by.setdefault(claim.of.id, []).append(claim)
@@ -47,6 +48,7 @@ def _document(sources: Sources, document: Document, rows: dict[tuple[str, str], 
                 "id": prop.id,
                 "title": prop.title,
                 "hazard": prop.hazard,
+                "demanded": prop.id in demanded,
                 "sentence": prop.sentence,
                 "clauses": prop.clauses,
                 "findings": prop.findings,
