@@ -78,7 +78,7 @@ def test_a_document_without_a_choice_has_no_profile(tree: Any) -> None:
             "cautious 'shrt' is not one of 'long', 'short'",
         ),
         ("interface", 'cautious = "short"', 'cautious = "long"', "cautious is the default; leave it out"),
-        ("interface", "default = 100", "default = 100, cautious = 50", "belongs to text and bool, not to ms"),
+        ("interface", "default = 100", "default = 100, cautious = 50", "no finding has parameter"),
         (
             "interface",
             ', because = "a hand is faster"',
