@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
+from modeproof.ground.places import root
 from modeproof.registers import load_document
-from modeproof.registers.profiles import NEITHER, profile_of, profiles_of, strength_of
+from modeproof.registers.profiles import NEITHER, profile_of, profiles_of, profiles_with, strength_of
 
 SPEC = "spec/door/"
 PARAMETER = (
@@ -107,6 +108,15 @@ def test_each_planted_fault_is_found(two: Any, file: str, old: str, new: str, ex
     assert any(expected in line for line in found), found
 
 
+def test_what_the_letter_cannot_keep_has_a_counterexample_of_the_letter(two: Any) -> None:
+    old = 'antecedent = "open_seen"'
+    two.edit(SPEC + "properties.toml", old, f'{old}\nprofiles = ["cautious"]')
+    unshown = "OpenIsUnlocked: is of the profile cautious alone, and no counterexample shows"
+    assert not any(unshown in line for line in two.problems())
+    two.write(f"{SPEC}models/NEG_Latch.cfg", CFG.format("short"))
+    assert any(unshown in line for line in two.problems()), two.problems()
+
+
 def test_a_run_with_a_reading_speaks_for_no_profile(two: Any) -> None:
     two.write(SPEC + "LatchAsPrinted.tla", SLOW)
     row = 'id = "MC_Latch_cautious"\nmodule = "Latch"\ncfg = "models/MC_Latch_cautious.cfg"'
@@ -125,3 +135,19 @@ def test_a_harmless_reading_is_asked_in_both_profiles(two: Any) -> None:
     assert any(expected in line for line in two.problems()), two.problems()
     two.write(SPEC + "runs.toml", f"{runs}[run.also]\nMC_Latch_cautious = []\n")
     assert not any("harmless" in line for line in two.problems()), two.problems()
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ({"T_DWELL_ms": 0}, ["letter"]),
+        ({"T_DWELL_ms": 1}, ["cautious"]),
+        ({"T_DWELL_ms": 0, "SELECTIONS": "again"}, []),
+        ({"T_DWELL_ms": 70, "SELECTIONS": "again", "T_SEQ_FROM": "LA", "T_ON_ms": 5}, ["cautious"]),
+        ({"PERMITS_3": [3]}, []),
+        ({}, ["letter", "cautious"]),
+    ],
+)
+def test_a_time_that_chooses_has_one_value_in_the_letter(values: dict[str, Any], expected: list[str]) -> None:
+    device = load_document(root(), "mode_selection").interface.devices["fplc"]
+    assert profiles_with(device, values) == expected
