@@ -174,7 +174,7 @@ def test_the_published_sequences_blame_no_program_that_follows(
 def test_a_narrower_permission_is_none_of_the_page() -> None:
     narrow = {"PERMITS_3": [3], "PERMITS_4": [2, 4]}
     for target, name, demand in (
-        ("fplc", "level 3, mode 1", "EchoComes"),
+        ("fplc", "level 3, mode 1", "NoErrorInAGoodCourse"),
         ("fplc", "level 4, mode 4", ""),
         ("hmi", "level 3, mode 3", "FieldsOpen"),
     ):

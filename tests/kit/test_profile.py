@@ -121,7 +121,7 @@ def test_a_profile_is_refused_where_there_are_none(asked: str, capsys: pytest.Ca
 
 
 @pytest.mark.parametrize("name", ["brief", "parameters", "sequences"])
-def test_a_time_that_chooses_has_its_default_in_the_letter_alone(name: str) -> None:
+def test_a_choosing_time_has_its_default_in_the_letter_alone(name: str) -> None:
     suite = open_suite(ROOT / f"vectors/fplc/{name}.jsonl.gz")
     letter, cautious = (of_profile(suite, profile) for profile in (LETTER, CAUTIOUS))
     assert letter is not None and cautious is not None
