@@ -247,8 +247,9 @@ class Order:
         for node in found:
             if (key := f"the output of {node.what()}") in uses:
                 uses[key].append((node.id, True))
-        again = read_anew(self, found)
-        ways = [again] if any(node.network for node in found) else [again, *generated(self)]
+        sources = {node.id: [source for _, source in self.sources(node)] for node in found}
+        again = read_anew(found, sources)
+        ways = [again] if any(node.network for node in found) else [again, *generated(self.running, sources)]
         for events in ways:
             if (pair := differs(found, events, uses)) is not None:
                 name, one, other = pair

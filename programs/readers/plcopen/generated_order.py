@@ -11,27 +11,30 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cmp_to_key
-from typing import TYPE_CHECKING
 
 from programs.readers.plcopen.diagrams import Node
-
-if TYPE_CHECKING:
-    from programs.readers.plcopen.evaluation_order import Order
 
 NEAR = 10
 """Two elements whose tops are less than this apart stand beside each other: the left one comes first."""
 WRITTEN = ("outVariable", "inOutVariable", "coil")
 
 
-def generated(order: Order) -> Iterator[list[Node]]:
-    """What runs, one after the other, by each rule of that generator: a contact once for each use."""
-    yield _Generated(order).all(sorted(order.running, key=cmp_to_key(_by_place)))
-    yield _Generated(order).all(order.running)
+Sources = Mapping[str, Sequence[Node]]
+"""For each element by its id those from which it takes values."""
 
 
-def read_anew(order: Order, found: Iterable[Node]) -> list[Node]:
+def generated(running: Sequence[Node], sources: Sources) -> Iterator[list[Node]]:
+    """What runs, one after the other, by each rule of that generator: a contact once for each use.
+
+    running: the elements that do something, as they stand in the file.
+    """
+    yield _Generated(sources).all(sorted(running, key=cmp_to_key(_by_place)))
+    yield _Generated(sources).all(running)
+
+
+def read_anew(found: Iterable[Node], sources: Sources) -> list[Node]:
     """The elements as they are found, but each contact is read for everything behind it."""
-    again = _Generated(order)
+    again = _Generated(sources)
     for node in found:
         if node.kind != "contact":
             again.events += [*again.contacts(node), node]
@@ -67,8 +70,8 @@ def _by_place(one: Node, other: Node) -> int:
 class _Generated:
     """One walk over the elements of a body."""
 
-    def __init__(self, order: Order) -> None:
-        self.order = order
+    def __init__(self, sources: Sources) -> None:
+        self.sources = sources
         self.events: list[Node] = []
         self.begun: set[str] = set()
 
@@ -98,7 +101,7 @@ class _Generated:
 
     def needed(self, node: Node, asked_in_order: bool) -> None:
         """The blocks from which an element takes values, through contacts and coils."""
-        for source in self.sources(node):
+        for source in self.sources[node.id]:
             if source.kind == "block":
                 self.block(source, asked_in_order)
             elif source.kind in ("contact", "coil"):
@@ -108,12 +111,8 @@ class _Generated:
 
     def contacts(self, node: Node) -> Iterator[Node]:
         """The contacts that are read when an element runs."""
-        for source in self.sources(node):
+        for source in self.sources[node.id]:
             if source.kind in ("contact", "coil"):
                 yield from self.contacts(source)
             if source.kind == "contact":
                 yield source
-
-    def sources(self, node: Node) -> Iterator[Node]:
-        for pin in node.pins:
-            yield from (self.order.source(pin, target) for target, _ in pin.sources)
