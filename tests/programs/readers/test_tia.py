@@ -216,7 +216,7 @@ def test_a_refused_block_that_may_write_counts(tmp_path: Path) -> None:
         completed(source, source.units["MAIN"])
 
 
-def test_a_global_handed_to_a_function_that_writes_it_is_refused(tmp_path: Path) -> None:
+def test_a_global_lent_to_a_function_of_it_is_refused(tmp_path: Path) -> None:
     function = """FUNCTION "Twice" : Void
    VAR_INPUT
       before : Int;
