@@ -107,7 +107,7 @@ def test_each_planted_fault_is_found(two: Any, file: str, old: str, new: str, ex
     assert any(expected in line for line in found), found
 
 
-def test_what_the_letter_cannot_keep_has_a_counterexample_of_the_letter(two: Any) -> None:
+def test_what_the_letter_breaks_has_a_counterexample(two: Any) -> None:
     old = 'antecedent = "open_seen"'
     two.edit(SPEC + "properties.toml", old, f'{old}\nprofiles = ["cautious"]')
     unshown = "OpenIsUnlocked: is of the profile cautious alone, and no counterexample shows"
