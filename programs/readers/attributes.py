@@ -12,8 +12,8 @@ from typing import Final
 RETAINED: Final = frozenset({"tcretain", "tcpersistent", "tcinitsymbol"})
 """The variable behind it keeps its value, or gets one from outside, before the first scan."""
 _DROPPED: Final = frozenset({
-    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
-    "qualified_only", "reflection", "strict", "to_string",
+    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "naming", "obsolete",
+    "pack_mode", "qualified_only", "reflection", "strict", "to_string",
     "tcdisplayscale", "tchidesubitems", "tcignorepersistent", "tclinkto", "tclinktooso", "tcnosymbol",
 })  # fmt: skip
 _DROPPED_WITH: Final = {"symbol": ("none", "read"), "monitoring": ("variable",), "opc.ua.da": ("0",)}
