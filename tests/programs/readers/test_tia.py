@@ -237,3 +237,63 @@ def test_values_of_updates_keep_their_brackets(tmp_path: Path) -> None:
     body = FB.replace('"My Data".count -= Int#2', '"My Data".count -= 3 - 1')
     source, unit = judged(saved(tmp_path, steps_scl=body))
     assert Machine(source, unit).scan({"Start_Button": True}, 10)["count"] == 5
+
+
+LENDS = """FUNCTION "Step" : Void
+   VAR_INPUT
+      by : Int;
+   END_VAR
+   VAR_IN_OUT
+      part : "typ Count";
+      list : Array[0..2] of Int;
+   END_VAR
+BEGIN
+    #part.n += #by;
+    #list[1] := #part.n;
+END_FUNCTION
+FUNCTION_BLOCK "Lends"
+   VAR_INPUT
+      by, which : Int;
+   END_VAR
+   VAR_OUTPUT
+      n, second : Int;
+   END_VAR
+   VAR
+      parts : Array[0..1] of "typ Count";
+      list : Array[0..2] of Int;
+      pair : Struct
+         n : Int;
+         part : "typ Count";
+      END_STRUCT;
+   END_VAR
+BEGIN
+    IF #which < 0 OR #which > 1 THEN RETURN; END_IF;
+    "Step"(by := #by, part := #parts[#which], list := #list);
+    #n := #parts[0].n;
+    #second := #list[1];
+END_FUNCTION_BLOCK
+"""
+
+
+def lends(folder: Path, text: str = LENDS) -> tuple[Source, Unit]:
+    """A block that lends a structure and an array to a FUNCTION."""
+    (folder / "b.scl").write_text(TYPE + text, "utf-8")
+    source = read_sources([folder / "b.scl"])
+    unit = source.units["LENDS"]
+    check(source, unit)
+    return source, unit
+
+
+def test_a_function_writes_the_structure_that_it_is_lent(tmp_path: Path) -> None:
+    source, unit = lends(tmp_path)
+    machine = Machine(source, unit)
+    shown = [machine.scan({"by": by, "which": which}, 10) for by, which in ((3, 0), (4, 1), (1, 0))]
+    assert [(scan["n"], scan["second"]) for scan in shown] == [(3, 3), (3, 4), (4, 4)]
+    assert all(difference_of_translator(source, unit, seed, 30) == "" for seed in range(3))
+
+
+def test_a_variable_that_goes_in_and_comes_out_is_refused(tmp_path: Path) -> None:
+    lends(tmp_path, LENDS.replace("by := #by, part := #parts[#which]", "by := #pair.n, part := #pair.part"))
+    for one in ("by := #list[0]", "by := #parts[0].n"):
+        with pytest.raises(Unjudged, match="goes into Step and comes out of it: S7 may take"):
+            lends(tmp_path, LENDS.replace("by := #by, part", f"{one}, part"))
