@@ -142,6 +142,20 @@ def test_a_data_block_of_a_type_is_one_global(tmp_path: Path) -> None:
     assert "COUNTED" in unit.variables
 
 
+def test_first_values_behind_begin_are_read(tmp_path: Path) -> None:
+    more = DATA.replace("   END_VAR", '      row : Array[0..2] of "typ Count";\n      w : Word;\n   END_VAR')
+    given = 'part.n := 7; // one\n"is on" := TRUE;\n row[1].n := -3;\n w := W#16#F0;'
+    body = MAIN.replace(
+        "BEGIN\n", 'BEGIN\n    IF "My Data".row[1].n = -3 THEN "My Data".row[0].n := 1; END_IF;\n'
+    )
+    body = body.replace('"My Data"."is on" AND', '"My Data".part.n = 7 AND "My Data".w = 16#F0 AND')
+    source, unit = judged(saved(tmp_path, main_scl=body, data_db=more.replace("count := 7;", given)))
+    shown = Machine(source, unit).scan({"Start_Button": False, "part": {"N": 7}, "w": 0xF0}, 10)
+    assert [one["N"] for one in shown["row"]] == [1, -3, 0]
+    assert unit.variables["IS_ON"].initial is True and unit.variables["COUNT"].initial == 5
+    assert source.units and unit.variables["PART"].initial == (("N", 7),)
+
+
 STRUCTURE = DATA.replace("   VAR\n", "   STRUCT\n").replace("END_VAR", "END_STRUCT;")
 
 
@@ -157,11 +171,15 @@ REFUSED = {
     ),
     "a first value of an instance": (
         {"instance_db": INSTANCE.replace("BEGIN\n", "BEGIN\n   go := TRUE;\n")},
-        "data block Steps_DB: this first value is not read here: go := TRUE",
+        "this first value is not read here: it is of",
     ),
-    "a first value of a member": (
-        {"data_db": DATA.replace("count := 7", "part.n := 7")},
-        "this first value is not read here: part.n := 7",
+    "a first value of nothing": (
+        {"data_db": DATA.replace("count := 7", "part.m := 7")},
+        "data.db:14: this first value is not read here: it is of typ_Count",
+    ),
+    "a first value of another type": (
+        {"data_db": DATA.replace("count := 7", "count := 70_000")},
+        "data.db:14: ",
     ),
     "a client that writes": ({"data_db": DATA.replace("FALSE", "TRUE", 1)}, "lets a client write the data"),
     "no data block": ({"data_db": ""}, "My_Data is not declared"),
