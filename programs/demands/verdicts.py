@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -20,6 +20,7 @@ from programs.equality.replay import MOST_SCANS, SUITES, Run
 from programs.equality.shorten import fewer
 from programs.invariants.houdini import Houdini
 from programs.invariants.induction import Proof, System, holds_up, induction, shortest, spacer
+from programs.invariants.located import Located
 from programs.invariants.word_numbers import spacer_over_numbers
 from programs.semantics.terms import compared_with
 
@@ -92,6 +93,8 @@ class Judgement:
     """Proofs over the whole system that were found before, by the ids of demands: asked again at first."""
     left_out: Collection[str] = ()
     """Demands that are not asked."""
+    places: Sequence[str] = ()
+    """Names of memory by whose values an invariant may be split, if nothing simpler is found."""
 
     @cached_property
     def every(self) -> list[Asked]:
@@ -268,6 +271,8 @@ class Judgement:
                 return self._replayed(asked, self.beside.wires.run_of(way))
             proof = spacer_over_numbers(self.system, bad, [], seconds / 12)
             proof = proof or spacer(self.system, bad, [], seconds / 4)
+        if proof is None and self.places:
+            proof = self._by_places(bad, time.process_time() + seconds)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
@@ -279,6 +284,17 @@ class Judgement:
         if way is not None:
             return self._replayed(asked, self.beside.wires.run_of(way))
         return Found(asked, "UNKNOWN", f"no proof; nothing breaks it within {looked} scans", scans=looked)
+
+    def _by_places(self, bad: z3.BoolRef, until: float) -> Proof | None:
+        """A proof by an invariant that is split by the places; None: it has none in that time."""
+        places = [name for name in self.places if name in self.system.cone(bad).state]
+        located = Located(self.system.cone(bad), places, self.tell)
+        try:
+            located.find(until)
+            proof = induction(self.system, bad, located.lemmas(), until + self.seconds)
+        except TimeoutError:
+            return None
+        return proof and replace(proof, by=f"an invariant by {', '.join(places)}")
 
     def _replayed(self, asked: Asked, run: Run) -> Found:
         """The scans that a solver found, after they were run with plain values."""
