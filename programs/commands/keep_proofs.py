@@ -1,11 +1,11 @@
-"""Searches for proofs of the demands on a reference and keeps them: `python -m programs.commands.keep_proofs`.
+"""Searches for proofs of the demands on a reference, and keeps them.
 
     python -m programs.commands.keep_proofs [--seconds S] [--places NAME,NAME] TARGET ...
 
-In each profile of the target; what was kept and still is a proof stays. Where a demand is about the course of a
-procedure, --places names the memory that says where the procedure is (before.control,course), so that an
-invariant is looked for place by place. Exit status: 0 all demands that the register asks to be proved are; 2 some
-are not.
+In each profile of the target; what was kept and still is a proof stays. Where a demand is about the course
+of a procedure, --places names the memory that says where the procedure is (before.control,course), so that
+an invariant is looked for place by place. Exit status: 0 all demands that the register asks to be proved are;
+2 some are not.
 """
 
 from __future__ import annotations

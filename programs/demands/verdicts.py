@@ -109,7 +109,7 @@ class Judgement:
 
     def all(self) -> list[Found]:
         """The verdict on each."""
-        still = {asked.id: found for asked in self.every if (found := self._still(asked)) is not None}
+        still = {asked.id: one for asked in self.every if (one := self._still(asked)) is not None}
         if len(still) == len(self.every):
             return list(still.values())
         by_id = {asked.id: asked for asked in self.every}

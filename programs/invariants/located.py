@@ -1,8 +1,8 @@
-"""An invariant by places: what is true wherever some values of memory, such as a control state, are what they are.
+"""An invariant by places: a place is where some values of memory, such as a control state, are what they are.
 
-From power-up on a solver is asked for a scan that leaves what is known of the place where it ends; what it finds
-is joined to that. Known of a place is the range of each other value, and which of them are equal or in order. In
-the end no scan leaves it, so that it is an invariant.
+From power-up on a solver is asked for a scan that leaves what is known of the place where it ends; what it
+finds is joined to that. Known of a place is the range of each other value, and which of them are equal or in
+order. In the end no scan leaves it, so that it is an invariant.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ Terms = Mapping[str, Any]
 
 @dataclass
 class Known:
-    """What is known of the values in a place: their ranges, None: no bound; pairs of names that are equal, and
-    of numbers that are in order.
+    """What is known of the values in a place: their ranges, None: no bound; pairs of names that are equal,
+    and of numbers that are in order.
     """
 
     low: dict[str, Any]
@@ -42,8 +42,8 @@ class Known:
     """How often a number became greater in a scan that stays in the place."""
 
     def join(self, values: Mapping[str, Any], stays: bool, stops: Sequence[int]) -> None:
-        """Also these values are possible. stays: after a scan that begins in this place, too; what grows in such
-        scans goes on to the next of the numbers at which anything stops.
+        """Also these values are possible. stays: after a scan that begins in this place, too; what grows in
+        such scans goes on to the next of the numbers at which anything stops.
         """
         for name, low in self.low.items():
             value = values[name]
@@ -157,8 +157,8 @@ class Located:
         waiting: dict[Place, None],
         until: float,
     ) -> None:
-        """Join all that a solver finds beside what is known of where a scan ends. start: where it begins; None:
-        before power-up.
+        """Join all that a solver finds beside what is known of where a scan ends. start: where it begins;
+        None: before power-up.
         """
         ends = {} if start is None else self.after.setdefault(start, {})
         solver.push()
