@@ -12,7 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.files import write_text
+from modeproof.registers.profiles import PROFILES
 from programs.certificates.inductive import read_invariants
+from programs.demands.reference_subject import Implementation
 from programs.invariants.induction import DEEPEST, Proof, System
 
 
@@ -36,6 +38,16 @@ def read(path: Path, system: System) -> dict[str, Proof]:
         except (KeyError, TypeError, ValueError):
             continue
     return found
+
+
+def of_subject(root: Path, subject: Implementation, system: System) -> Mapping[str, Proof]:
+    """The proofs of the profile that the subject has; none where it has no such profile."""
+    of = subject.reference
+    for profile in PROFILES:
+        chosen = Implementation.in_profile(of, profile).fixed
+        if chosen.items() <= subject.fixed.items():
+            return read(place_of(root, of.document, of.device.name, profile), system)
+    return {}
 
 
 def write(path: Path, proofs: Iterable[tuple[str, Proof]]) -> None:

@@ -162,7 +162,10 @@ class Located:
     def _first(self, values: Mapping[str, Any]) -> Known:
         own = {name: values[name] for name in self.rest}
         return Known(
-            {name: v if abs(int(v)) <= MOST_NUMBER or z3.is_bv(self.system.state[name]) else v for name, v in own.items()},
+            {
+                name: v if abs(int(v)) <= MOST_NUMBER or z3.is_bv(self.system.state[name]) else v
+                for name, v in own.items()
+            },
             dict(own),
             [pair for pair in self.alike if own[pair[0]] == own[pair[1]]],
             [pair for pair in self.ordered if own[pair[0]] <= own[pair[1]]],
