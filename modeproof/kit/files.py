@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 import sys
@@ -79,6 +80,21 @@ def _replace(part: str, path: Path) -> None:
             return
         time.sleep(_PAUSE_S)
     os.replace(part, path)
+
+
+def can_be_written(path: Path) -> None:
+    """Raise Unjudged where a file surely cannot be written later, before anybody waits for what it will hold."""
+    if path == STDOUT:
+        return
+    error = 0
+    if not path.parent.is_dir():
+        error = errno.ENOTDIR if path.parent.exists() else errno.ENOENT
+    elif path.is_dir():
+        error = errno.EISDIR
+    elif not os.access(path if path.exists() else path.parent, os.W_OK):
+        error = errno.EACCES
+    if error:
+        raise Unjudged(f"{path}: cannot be written: {os.strerror(error)}")
 
 
 def write_json(path: Path, record: Mapping[str, Any]) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import day
 from modeproof.ground.places import build, root
-from modeproof.kit.files import STDOUT, write_text
+from modeproof.kit.files import STDOUT, can_be_written, write_text
 from modeproof.output.diagram import as_svg
 from modeproof.output.markdown import as_markdown
 from modeproof.output.outcome import File, Outcome, shown_path, unjudged, write
@@ -97,6 +97,9 @@ def found_by(args: argparse.Namespace) -> Outcome:
 
 
 def _judged(args: argparse.Namespace) -> tuple[Outcome, Unjudged | None]:
+    for option in ("json", "junit", "vector", *FORMS):
+        if (place := getattr(args, option, None)) is not None:
+            can_be_written(place)
     about: About = args.about(args)
     path: Path = args.record or records() / f"{about.name}.json"
     known_before = path.exists()

@@ -144,7 +144,9 @@ def of_reference(judgement: Judgement) -> Judgement:
     subject = Implementation(beside.subject.reference, beside.subject.fixed)
     own = Beside(subject, beside.demands, beside.assumed, beside.latency)
     kept = kept_proofs.of_subject(root(), subject, own.system)
-    return Judgement(own, judgement.vectors, judgement.seconds, judgement.tell, kept=kept)
+    return Judgement(
+        own, judgement.vectors, judgement.seconds, judgement.tell, kept=kept.proofs, places=kept.places
+    )
 
 
 # ---------------------------------------------------------------- reading

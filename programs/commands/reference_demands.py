@@ -56,7 +56,7 @@ def judgement_of(
     beside.check()
     kept = kept_proofs.read(kept_proofs.place_of(root(), of.document, target, profile), beside.system)
     vectors = root() / "vectors" / target
-    return Judgement(beside, vectors, seconds, tell, kept=kept, left_out=left_out)
+    return Judgement(beside, vectors, seconds, tell, kept=kept.proofs, left_out=left_out, places=kept.places)
 
 
 def shown(judgement: Judgement) -> Shown:

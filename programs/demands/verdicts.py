@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -20,6 +20,7 @@ from programs.equality.replay import MOST_SCANS, SUITES, Run
 from programs.equality.shorten import fewer
 from programs.invariants.houdini import Houdini
 from programs.invariants.induction import Proof, System, holds_up, induction, shortest, spacer
+from programs.invariants.located import Located
 from programs.invariants.word_numbers import spacer_over_numbers
 from programs.semantics.terms import compared_with
 
@@ -94,6 +95,8 @@ class Judgement:
     """Demands that are not asked."""
     brief: bool = False
     """Without a search for invariants, which may take long where another question settles it."""
+    places: Sequence[str] = ()
+    """Names of memory by whose values an invariant may be split, if nothing simpler is found."""
 
     @cached_property
     def every(self) -> list[Asked]:
@@ -108,7 +111,7 @@ class Judgement:
 
     def all(self) -> list[Found]:
         """The verdict on each."""
-        still = {asked.id: found for asked in self.every if (found := self._still(asked)) is not None}
+        still = {asked.id: one for asked in self.every if (one := self._still(asked)) is not None}
         if len(still) == len(self.every):
             return list(still.values())
         by_id = {asked.id: asked for asked in self.every}
@@ -274,6 +277,8 @@ class Judgement:
         if proof is None and self.brief:
             how = f"nothing breaks it within {looked} scans; invariants were not looked for"
             return Found(asked, "UNKNOWN", how, scans=looked)
+        if proof is None and self.places:
+            proof = self._by_places(bad, time.process_time() + seconds)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
@@ -285,6 +290,17 @@ class Judgement:
         if way is not None:
             return self._replayed(asked, self.beside.wires.run_of(way))
         return Found(asked, "UNKNOWN", f"no proof; nothing breaks it within {looked} scans", scans=looked)
+
+    def _by_places(self, bad: z3.BoolRef, until: float) -> Proof | None:
+        """A proof by an invariant that is split by the places; None: it has none in that time."""
+        places = [name for name in self.places if name in self.system.cone(bad).state]
+        located = Located(self.system.cone(bad), places, self.tell)
+        try:
+            located.find(until)
+            proof = induction(self.system, bad, located.lemmas(), until + self.seconds)
+        except TimeoutError:
+            return None
+        return proof and replace(proof, by=f"an invariant by {', '.join(places)}")
 
     def _replayed(self, asked: Asked, run: Run) -> Found:
         """The scans that a solver found, after they were run with plain values."""

@@ -1,8 +1,8 @@
-"""An invariant by places: what is true wherever some values of memory, such as a control state, are what they are.
+"""An invariant by places: a place is where some values of memory, such as a control state, are what they are.
 
-From power-up on a solver is asked for a scan that leaves what is known of the place where it ends; what it finds
-is joined to that. Known of a place is the range of each other value, and which of them are equal or in order. In
-the end no scan leaves it, so that it is an invariant.
+From power-up on a solver is asked for a scan that leaves what is known of the place where it ends; what it
+finds is joined to that. Known of a place is the range of each other value, and which of them are equal or in
+order. In the end no scan leaves it, so that it is an invariant.
 """
 
 from __future__ import annotations
@@ -17,17 +17,20 @@ import z3
 
 from programs.invariants.induction import LIMIT_MS, System, limits, named
 from programs.invariants.relations import like, plain
+from programs.semantics.terms import compared_with
 
 MOST_NUMBER = 64
 """A number that can be above it, or below it with the other sign, has no bound there."""
+PATIENCE = 3
+"""So often a number may grow by itself before it is taken to go on."""
 Place = tuple[Any, ...]
 Terms = Mapping[str, Any]
 
 
 @dataclass
 class Known:
-    """What is known of the values in a place: their ranges, None: no bound; pairs of names that are equal, and
-    of numbers that are in order.
+    """What is known of the values in a place: their ranges, None: no bound; pairs of names that are equal,
+    and of numbers that are in order.
     """
 
     low: dict[str, Any]
@@ -35,13 +38,22 @@ class Known:
     equal: list[tuple[str, str]]
     at_most: list[tuple[str, str]]
 
-    def join(self, values: Mapping[str, Any]) -> None:
-        """Also these values are possible."""
+    grown: dict[str, int] = field(default_factory=dict)
+    """How often a number became greater in a scan that stays in the place."""
+
+    def join(self, values: Mapping[str, Any], stays: bool, stops: Sequence[int]) -> None:
+        """Also these values are possible. stays: after a scan that begins in this place, too; what grows in
+        such scans goes on to the next of the numbers at which anything stops.
+        """
         for name, low in self.low.items():
             value = values[name]
             if low is not None and value < low:
                 self.low[name] = value if value >= -MOST_NUMBER else None
             if (high := self.high[name]) is not None and value > high:
+                if stays and not isinstance(value, bool):
+                    self.grown[name] = self.grown.get(name, 0) + 1
+                    if self.grown[name] > PATIENCE:
+                        value = next((stop for stop in stops if stop >= value), MOST_NUMBER + 1)
                 self.high[name] = value if value <= MOST_NUMBER else None
         self.equal = [pair for pair in self.equal if values[pair[0]] == values[pair[1]]]
         self.at_most = [pair for pair in self.at_most if values[pair[0]] <= values[pair[1]]]
@@ -86,17 +98,27 @@ class Located:
     def __post_init__(self) -> None:
         state = self.system.state
         self.rest = [name for name in state if name not in self.places]
-        pairs = list(itertools.combinations(self.rest, 2))
+        self.steady = {name for name in self.rest if self.system.after[name].eq(state[name])}
+        pairs = [
+            (one, other)
+            for one, other in itertools.combinations(self.rest, 2)
+            if not {one, other} <= self.steady
+        ]
         self.alike = [(one, other) for one, other in pairs if state[one].sort() == state[other].sort()]
-        numbers = [name for name in self.rest if z3.is_int(state[name])]
-        self.ordered = list(itertools.permutations(numbers, 2))
+        self.ordered = [
+            pair
+            for one, other in pairs
+            if z3.is_int(state[one]) and z3.is_int(state[other])
+            for pair in ((one, other), (other, one))
+        ]
+        self.stops = sorted(compared_with(system_terms(self.system)))
         self.then = {name: named(term, "then") for name, term in state.items()}
 
     def find(self, until: float) -> None:
         """Raises TimeoutError."""
         system, waiting = self.system, dict[Place, None]()
         first = self._solver(system.first)
-        self._leaving(first, system.state, {}, waiting, until)
+        self._leaving(None, first, system.state, waiting, until)
         scan = [self.then[name] == term for name, term in system.after.items()]
         solver = self._solver(system.within, system.assumed, system.inside, *scan)
         while waiting:
@@ -105,7 +127,7 @@ class Located:
             self.tell(f"{len(self.known)} places, {len(waiting)} to be asked again")
             solver.push()
             solver.add(self._here(place, system.state), *self.known[place].facts(system.state))
-            self._leaving(solver, self.then, self.after.setdefault(place, {}), waiting, until)
+            self._leaving(place, solver, self.then, waiting, until)
             solver.pop()
 
     def lemmas(self) -> list[z3.BoolRef]:
@@ -129,13 +151,16 @@ class Located:
 
     def _leaving(
         self,
+        start: Place | None,
         solver: z3.Solver,
         terms: Terms,
-        ends: dict[Place, None],
         waiting: dict[Place, None],
         until: float,
     ) -> None:
-        """Join all that a solver finds beside what is known of where a scan ends."""
+        """Join all that a solver finds beside what is known of where a scan ends. start: where it begins;
+        None: before power-up.
+        """
+        ends = {} if start is None else self.after.setdefault(start, {})
         solver.push()
         solver.add([z3.Not(self._here(place, terms)) for place in ends])
         while (values := self._answer(solver, terms, until)) is not None:
@@ -155,20 +180,23 @@ class Located:
                 values = self._answer(solver, terms, until)
                 if values is None:
                     break
-                known.join(values)
+                known.join(values, place == start, self.stops)
                 waiting[place] = None
             solver.pop()
 
     def _first(self, values: Mapping[str, Any]) -> Known:
-        own = {name: values[name] for name in self.rest}
+        low: dict[str, Any] = {}
+        high: dict[str, Any] = {}
+        for name in self.rest:
+            low[name] = high[name] = values[name]
+            if name in self.steady:
+                boolean = z3.is_bool(self.system.state[name])
+                low[name], high[name] = (False, True) if boolean else (None, None)
         return Known(
-            {
-                name: v if abs(int(v)) <= MOST_NUMBER or z3.is_bv(self.system.state[name]) else v
-                for name, v in own.items()
-            },
-            dict(own),
-            [pair for pair in self.alike if own[pair[0]] == own[pair[1]]],
-            [pair for pair in self.ordered if own[pair[0]] <= own[pair[1]]],
+            low,
+            high,
+            [pair for pair in self.alike if values[pair[0]] == values[pair[1]]],
+            [pair for pair in self.ordered if values[pair[0]] <= values[pair[1]]],
         )
 
     def _answer(self, solver: z3.Solver, terms: Terms, until: float) -> dict[str, Any] | None:
@@ -183,3 +211,8 @@ class Located:
             return None
         model = solver.model()
         return {name: plain(model.eval(term, model_completion=True)) for name, term in terms.items()}
+
+
+def system_terms(system: System) -> list[Any]:
+    """What a scan makes of memory, and what is assumed."""
+    return [*system.after.values(), system.assumed, system.within]

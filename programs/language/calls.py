@@ -23,6 +23,7 @@ from programs.language.tree import (
     Type,
     Unit,
     Variable,
+    blocks_in,
 )
 
 
@@ -56,6 +57,8 @@ def called_functions(part: Any) -> Iterator[str]:
 def check_function(unit: Unit) -> None:
     """Refuse a FUNCTION that remembers something, or whose pins are not single values."""
     for variable in unit.variables.values():
+        if variable.section == "external" and not any(blocks_in(variable.type)):
+            continue  # it belongs to the program
         handed = variable.section in ("input", "output", "in_out")
         if not isinstance(variable.type, Scalar | Array) or variable.retained:
             raise variable.place.refuse(f"{variable.name}: a FUNCTION has plain variables here")

@@ -83,6 +83,8 @@ class _Globals:
             clear = names[key[1]] == 1 and key[1] not in (taken if one.group else blocks)
             own = one.name if clear else f"{one.group.strip(NOT_THERE) or 'GLOBAL'}__{one.name}"
             section = one.section if one.section == "constant" else "external"
+            if own.upper() in {other.name.upper() for other in found.known.values()}:
+                raise one.place.refuse(f"the global {own} stands for two: rename one")
             found.known[key] = replace(one, name=own, section=section)
             found.by_name.setdefault(key[1], []).append(key)
         return found
@@ -243,7 +245,8 @@ def _check_others(
     for name, refusal in source.refused.items():
         words = source.words.get(name)
         if words is None or names & words or (placed and any(word.startswith("%") for word in words)):
-            which = ", ".join(sorted(written)[:3])
+            there = {key for key in written if words is not None and key.rpartition("__")[2] in words}
+            which = ", ".join(sorted(there or written)[:3])
             raise Unjudged(f"{refusal.message}; and {name} might write {which}, as {unit.name} does")
     spots = Addresses()
     for key in sorted(written):
@@ -327,6 +330,8 @@ class _Uses:
     def check(self, unit: Unit) -> None:
         """Refuse two ways to one global in a call, and a FUNCTION in an expression that writes one."""
         for part in _parts(unit.body):
+            if isinstance(part, Function | Call):
+                self.check_references(unit, part)
             if isinstance(part, Function):
                 called = self.source.units.get(part.name.upper())
                 if called is not None and called.kind == "function":
@@ -342,6 +347,30 @@ class _Uses:
                         raise part.place.refuse(
                             f"{own.name} uses {root_of(value)}, and this call lends it: two ways to one"
                         )
+
+    def check_references(self, unit: Unit, part: Function | Call) -> None:
+        """Refuse a global that goes in or out of a FUNCTION of S7 which uses it too: it may be no copy."""
+        given: Pairs = ()
+        got: Pairs = ()
+        if isinstance(part, Function):
+            own, given = self.source.units.get(part.name.upper()), part.arguments
+        else:
+            own = function_of(self.source, unit, part)
+            given, got = self.handed(unit, part) if own is not None else ((), ())
+        if own is None or own.kind != "function" or own.fresh:
+            return
+        shared = set(unit.of_keys("external"))
+        written, touched = self.written(reached(self.source, own, ())), self.touched(own)
+        ins = {name for _, value in given for name in _names(value)} & shared & written
+        outs = {root_of(target) for _, target in got} & shared & touched
+        for name in sorted(ins | outs):
+            text = f"{own.name} uses {unit.variables[name].name}, and this call hands it over"
+            raise part.place.refuse(f"{text}: S7 may take the variable itself, or a copy")
+
+
+def _names(expression: Any) -> Iterator[str]:
+    """The variables in an expression, in upper case."""
+    return (part.name.upper() for part in _parts(expression) if isinstance(part, Name))
 
 
 def _parts(node: Any) -> Iterator[Any]:

@@ -111,6 +111,8 @@ class Types:
                 return kind
             case Name(name, place):
                 variable = self.unit.variables.get(name.upper())
+                if variable is None and name.upper() in self.source.refused:
+                    raise self.source.refused[name.upper()]  # such as a data block that cannot be read
                 if variable is None:
                     known = [found.name for found in self.unit.variables.values()]
                     raise place.refuse(f"{name} is not declared; {suggestion(name, known)}")

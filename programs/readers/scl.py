@@ -1,8 +1,9 @@
 """Siemens SCL into Structured Text: a pass over the text that keeps every line where it is.
 
-`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces that change
-nothing, VERSION, TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is WORD#16#FF. Comments and strings are
-left alone. The rest is Structured Text.
+`#name` and `"name"` become names, with `_` for what Structured Text does not have in a name; REGION lines,
+attributes in braces that change nothing, VERSION, TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is
+WORD#16#FF; `a += b` is `a := a + (b)`, and an ORGANIZATION_BLOCK is a PROGRAM. Comments and strings are left
+alone. The rest is Structured Text.
 """
 
 from __future__ import annotations
@@ -13,8 +14,10 @@ from programs.language.tree import Place
 
 TIMERS = {"TON_TIME": "TON", "TOF_TIME": "TOF", "TP_TIME": "TP"}
 HEADS = ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "ORGANIZATION_BLOCK", "TYPE", "DATA_BLOCK")
+UNITS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
+BEFORE_STATEMENTS = (";", ":", "THEN", "ELSE", "DO", "REPEAT")
 PREFIXES = {"W#": "WORD#", "DW#": "DWORD#", "B#": "BYTE#"}
-_TOKEN = re.compile(
+TOKEN = re.compile(
     r"""
     (?P<comment> //[^\n]* | \(\*.*?\*\) | /\*.*?\*/ )
     | (?P<string> '(?:\$.|[^'$\n])*' )
@@ -27,13 +30,13 @@ _TOKEN = re.compile(
     | (?P<prefix> \b(?:W|DW|B)\#(?=[0-9]) )
     | (?P<timer> \b(?:TON|TOF|TP)_TIME\b )
     | (?P<literal> \b\w+\#[\w.#+-]* )
-    | (?P<hash> \#(?=[A-Za-z_"]) )
+    | (?P<hash> \#(?=[^\W\d]|") )
+    | (?P<update> [-+*/]= )
     | (?P<stray> [{}#] )
     | (?P<word> \w+ ) | .
     """,
     re.VERBOSE | re.DOTALL | re.MULTILINE | re.IGNORECASE,
 )  # fmt: skip
-_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _ATTRIBUTE = re.compile(r"\s*(\w+)\s*:=\s*'((?:\$.|[^'$])*)'\s*", re.ASCII)
 _DROPPED = frozenset({
     "s7_optimized_access", "externalaccessible", "externalvisible", "externalwritable", "instructionname",
@@ -41,29 +44,53 @@ _DROPPED = frozenset({
     "s7_string_0", "s7_string_1", "s7_tasklist", "s7_blockview", "s7_setpoint",
 })  # fmt: skip
 """How data are kept and shown. What some mean at power-up, `_set_later` and `open_at_power_up` say."""
+_CLIENTS = ("db_accessible_from_opc_ua", "db_accessible_from_webserver")
+
+
+def named(text: str) -> str:
+    """A name of TIA, without quotation marks, as one of Structured Text. `names_of` sees two that are one."""
+    plain = re.sub(r"[^A-Za-z0-9_]", "_", text)
+    return f"_{plain}" if plain[:1].isdigit() else plain
+
+
+def names_of(text: str) -> dict[str, str]:
+    """The names and words of a text that are written otherwise here, by what they become in upper case."""
+    found: dict[str, str] = {}
+    for match in TOKEN.finditer(text):
+        if match.lastgroup in ("quoted", "word"):
+            found.setdefault(named(match[0].strip('"')).upper(), match[0].strip('"').upper())
+    return found
 
 
 def structured_text(text: str, file: str) -> str:
     """SCL as Structured Text with the same lines. Raises Unjudged with the line."""
     line = 1
     parts: list[str] = []
-    header = declares = typed = False  # typed: between TYPE and what is behind the name
+    header = declares = typed = updates = False  # typed: between TYPE and what is behind the name
     declared: set[str] = set()
-    before = None
-    for match in _TOKEN.finditer(text):
+    before, begin, names = None, 0, True  # names: what is declared comes next, not its type
+    for match in TOKEN.finditer(text):
         found, kind = match[0], match.lastgroup
         if kind == "word" and found.upper() in HEADS:
             header, declared = True, set()
         elif kind == "begin" or (kind == "word" and found.upper().startswith(("VAR", "STRUCT"))):
-            header, declares = False, kind == "word"
+            header, declares, names = False, kind == "word", True
         elif kind == "word" and found.upper() in ("END_VAR", "END_STRUCT"):
             declares = False
         elif kind == "about" and not header:
             raise Place(file, line).refuse(f"{found.split()[0]} is understood in the head of a block only")
-        elif declares and kind in ("word", "quoted"):
+        elif declares and found in (";", ":"):
+            names = found == ";"
+        elif declares and names and kind in ("word", "quoted"):
             declared.add(found.strip('"').upper())
-        elif kind == "quoted" and before != "hash" and not header and _is_global(match, declared):
-            raise Place(file, line).refuse(f"{found} is a global name, and those are not supported; #name?")
+        elif (
+            kind == "quoted"
+            and before != "hash"
+            and not (header or declares)
+            and _hides(found, declared, parts)
+        ):
+            text = f"{found} is a global name, and the block declares one of its own: rename one, or #name?"
+            raise Place(file, line).refuse(text)
         if kind == "attributes" and _set_later(found):  # before the name, where Structured Text has it
             name = next((n for n in range(len(parts) - 1, -1, -1) if parts[n].strip()), 0)
             parts.insert(name, "{attribute 'TcInitSymbol'}")
@@ -73,7 +100,17 @@ def structured_text(text: str, file: str) -> str:
         elif typed and (found == ":" or found.upper() in ("STRUCT", "END_TYPE")):
             parts.append(": " * (found.upper() == "STRUCT"))
             typed = False
+        if kind == "update":
+            target = "".join(part for part in parts[begin:] if not part.startswith(("//", "(*")))
+            parts.append(f":= {' '.join(target.split())} {found[0]} (")
+            updates = True
+            continue
+        if updates and found == ";":
+            parts.append(")")
+            updates = False
         parts.append(_changed(found, kind or "", Place(file, line)))
+        if kind in ("begin", "region") or found.upper() in BEFORE_STATEMENTS:
+            begin = len(parts)
         line += found.count("\n")
     return "".join(parts)
 
@@ -84,13 +121,13 @@ def open_at_power_up(text: str) -> set[str]:
     Without optimized access it is an attribute of the instance data block.
     """
     found: set[str] = set()
-    block, named = "", False
-    for match in _TOKEN.finditer(text):
-        kind, word = match.lastgroup, match[0].strip('"').upper()
+    block, heading = "", False
+    for match in TOKEN.finditer(text):
+        kind, word = match.lastgroup, named(match[0].strip('"')).upper()
         if kind == "word" and word in HEADS:
-            block, named = "", word == "FUNCTION_BLOCK"
-        elif kind in ("word", "quoted") and named:
-            block, named = word, False
+            block, heading = "", word == "FUNCTION_BLOCK"
+        elif kind in ("word", "quoted") and heading:
+            block, heading = word, False
             found.add(block)
         elif kind == "attributes" and any(
             (name.lower(), value.upper()) == ("s7_optimized_access", "TRUE")
@@ -109,18 +146,20 @@ def _set_later(found: str) -> bool:
 def _attributes(found: str, place: Place) -> str:
     """The line breaks of attributes that change nothing. Raises Unjudged for others."""
     left = _ATTRIBUTE.sub("", found[1:-1]).replace(";", "").strip()
-    for name, _ in _ATTRIBUTE.findall(found):
-        if name.lower() not in _DROPPED:
+    for name, value in _ATTRIBUTE.findall(found):
+        if name.lower() in _CLIENTS and value.lower() != "false":
+            raise place.refuse(f"attribute {name} lets a client write the data: set it to 'FALSE'")
+        if name.lower() not in (*_DROPPED, *_CLIENTS):
             raise place.refuse(f"attribute {name} may change what the program does; take it out")
     if left:
         raise place.refuse(f"{' '.join(found.split())[:40]}: NAME := 'value' is understood in braces")
     return "\n" * found.count("\n")
 
 
-def _is_global(match: re.Match[str], declared: set[str]) -> bool:
-    """Whether a quoted name in a body is no function of ours: what is declared in the block has a #."""
-    called = match.string[match.end() :].lstrip().startswith("(")
-    return not called or match[0].strip('"').upper() in declared
+def _hides(found: str, declared: set[str], parts: list[str]) -> bool:
+    """Whether a quoted name in a body is that of a variable of the block too, which would have a #."""
+    behind = next((part for part in reversed(parts) if part.strip()), "")
+    return behind != "." and found.strip('"').upper() in declared
 
 
 def _changed(found: str, kind: str, place: Place) -> str:
@@ -134,9 +173,11 @@ def _changed(found: str, kind: str, place: Place) -> str:
         case "hash":
             return ""
         case "quoted":
-            if not _NAME.fullmatch(found.strip('"')) or not found.endswith('"') or len(found) < 3:
-                raise place.refuse(f"{found}: a name with other characters than letters and digits")
-            return found.strip('"')
+            if not found.endswith('"') or not found.strip('" '):
+                raise place.refuse(f"{found}: a name in quotation marks does not end")
+            return named(found.strip('"'))
+        case "word":
+            return UNITS.get(found.upper(), named(found) if not found.isascii() else found)
         case "prefix":
             return PREFIXES[found.upper()]
         case "timer":

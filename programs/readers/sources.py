@@ -16,15 +16,15 @@ from programs.language.pou_actions import Actions
 from programs.language.shared_memory import linked
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import Body, Source, Task, Unit, Variable
-from programs.readers import twincat
+from programs.readers import tia, twincat
 from programs.readers.plcopen.project import Lower, read_plcopen
-from programs.readers.scl import open_at_power_up, structured_text
+from programs.readers.scl import names_of, open_at_power_up
 from programs.readers.statement_list.program import beside, read_awl
 from programs.readers.structured_text.types_and_values import Known
 from programs.readers.structured_text.units import known_in, read_all
 
 STATEMENT_LIST = (".awl", ".stl")
-TEXTS = (".st", ".scl", ".db", ".udt", *twincat.SUFFIXES)
+TEXTS = (".st", *tia.SUFFIXES, *twincat.SUFFIXES)
 """What is read of a folder."""
 NOT_KEPT = "the instance data block of {} is not retentive, which the source leaves open"
 LARGEST = 1_000_000
@@ -78,7 +78,7 @@ def read_sources(paths: Sequence[Path]) -> Source:
     for path, content in given:
         for other in beside(path) if path.suffix.lower() in STATEMENT_LIST else ():
             _bytes(other, files)
-        found = _read(content, path, texts.get(path), known.get(path, Known()))
+        found = _read(content, path, texts, known)
         refused |= found.refused
         words |= found.words
         shared += found.shared
@@ -142,13 +142,21 @@ def _expanded(paths: Sequence[Path], files: dict[str, str]) -> list[tuple[Path, 
 def _in_folder(folder: Path) -> list[Path]:
     """The sources in a folder; a project in it says which they are."""
     every = sorted(path for path in folder.rglob("*") if path.is_file())
+    tables = [path for path in every if path.suffix.lower() == ".xml" and _is_table(path)]
     projects = [path for path in every if path.suffix.lower() == twincat.PROJECT]
     if len(projects) > 1:
         raise Unjudged(f"{folder}: {len(projects)} projects in it; name one, such as {projects[0]}")
-    found = projects or [path for path in every if path.suffix.lower() in (*TEXTS, twincat.TASKS)]
+    read = (*TEXTS, twincat.TASKS)
+    found = projects or [path for path in every if path.suffix.lower() in read or path in tables]
     if not found:
         raise Unjudged(f"{folder}: no project (.plcproj) and no source ({', '.join(TEXTS)}) in it")
     return found
+
+
+def _is_table(path: Path) -> bool:
+    """Whether an XML is a table of tags of TIA."""
+    content = path.read_bytes() if path.stat().st_size <= LARGEST else b""
+    return any(sign in content for sign in tia.TABLES)
 
 
 def _bytes(path: Path, files: dict[str, str]) -> bytes:
@@ -168,91 +176,126 @@ def _bytes(path: Path, files: dict[str, str]) -> bytes:
 # ---------------------------------------------------------------- text
 
 
-Text = twincat.Container | Unjudged
+Text = twincat.Container | tia.Block | Unjudged
+Key = tuple[Path, int]
+"""A file, and the number of the block in it."""
 
 
-def _texts(given: Sequence[tuple[Path, bytes]]) -> dict[Path, Text]:
-    """The Structured Text of each file that is one, or why it cannot be read."""
-    found: dict[Path, Text] = {}
+def _texts(given: Sequence[tuple[Path, bytes]]) -> dict[Key, Text]:
+    """The Structured Text of each file that is one, or of each block of it, or why it cannot be read."""
+    found: dict[Key, Text] = {}
+    names: dict[str, str] = {}
     for path, content in given:
-        if path.suffix.lower() not in (*STATEMENT_LIST, ".xml", twincat.TASKS):
-            try:
-                found[path] = _plain(content, path)
-            except Unjudged as error:
-                found[path] = error
+        suffix = path.suffix.lower()
+        if suffix in (*STATEMENT_LIST, ".xml", twincat.TASKS):
+            if suffix == ".xml" and (table := tia.tags(content, str(path))) is not None:
+                found[path, 0] = twincat.Container(table, "")
+            continue
+        try:
+            if suffix not in tia.SUFFIXES:
+                found[path, 0] = _plain(content, path)
+                continue
+            text = _decoded(content, path)
+            for n, block in enumerate(tia.blocks(text, str(path))):
+                found[path, n] = block
+            for key, name in names_of(text).items():
+                if names.setdefault(key, name) != name:
+                    raise Unjudged(f"{path}: {name!r} and {names[key]!r} are one name here: rename one")
+        except Unjudged as error:
+            found[path, 0] = error
     return found
+
+
+def _decoded(text: bytes, path: Path) -> str:
+    try:
+        return text.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
 
 
 def _plain(text: bytes, path: Path) -> twincat.Container:
     """Structured Text. Raises Unjudged."""
     if path.suffix.lower() in twincat.SUFFIXES:
         return twincat.read_container(text, str(path))
-    try:
-        plain = text.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
-    if path.suffix.lower() == ".scl":
-        plain = structured_text(plain, str(path))
-    return twincat.Container(plain, "")
+    return twincat.Container(_decoded(text, path), "")
 
 
-def _known(texts: Mapping[Path, Text]) -> dict[Path, Known]:
-    """The types and constants that each file may use of others; one may need those of another.
+def _known(texts: Mapping[Key, Text]) -> dict[Key, Known]:
+    """The types and constants that each text may use of others; one may need those of another.
 
-    A file that cannot be read declares none here: it is refused when it is read whole.
+    A text that cannot be read declares none here: it is refused when it is read whole.
     """
     declares = re.compile(r"\b(?:TYPE|CONSTANT)\b", re.IGNORECASE)
     some = {
-        path: one
-        for path, one in texts.items()
-        if not isinstance(one, Unjudged) and declares.search(one.text)
+        key: one for key, one in texts.items() if not isinstance(one, Unjudged) and declares.search(one.text)
     }
-    found: dict[Path, Known] = {}
-    owner: dict[str, Path] = {}
+    found: dict[Key, Known] = {}
+    owner: dict[str, Key] = {}
     for number in range(len(some) if len(texts) > 1 else 0):
         before, found = found, {}
-        for path, one in some.items():
+        for key, one in some.items():
             with suppress(Unjudged):
-                apart = Known.joined(own for other, own in before.items() if other != path)
-                found[path] = known_in(one.text, str(path), apart, one.list)
-            for name in found[path].types if path in found and number == 0 else ():
-                if owner.setdefault(name, path) != path:
-                    raise Unjudged(f"{path}: the type {name} is in {owner[name]} too; give one of them")
+                apart = Known.joined(own for other, own in before.items() if other != key)
+                found[key] = known_in(one.text, str(key[0]), apart, one.list)
+            for name in found[key].types if key in found and number == 0 else ():
+                if owner.setdefault(name, key) != key:
+                    raise Unjudged(f"{key[0]}: the type {name} is in {owner[name][0]} too; give one of them")
         if found == before:
             break
-    return {path: Known.joined(own for other, own in found.items() if other != path) for path in texts}
+    return {key: Known.joined(own for other, own in found.items() if other != key) for key in texts}
 
 
-def _read(content: bytes, path: Path, text: Text | None, known: Known) -> _File:
+def _read(content: bytes, path: Path, texts: Mapping[Key, Text], known: Mapping[Key, Known]) -> _File:
     suffix = path.suffix.lower()
-    if suffix == ".xml":
+    if suffix == ".xml" and (path, 0) not in texts:
         read = read_plcopen(content, str(path))
         return _File(read.units, read.refused, read.shared, read.tasks, read.words)
     if suffix in STATEMENT_LIST:
         return _File([(unit, None) for unit in read_awl(path)])
     if suffix == twincat.TASKS:
         return _File(tasks=twincat.tasks_in(content, str(path)))
-    assert text is not None
+    if suffix in tia.SUFFIXES:
+        return _blocks(content, path, texts, known)
+    text, file = texts[path, 0], str(path)
     try:
         if isinstance(text, Unjudged):
             raise text
-        found = read_all(text.text, str(path), known, text.list)
-        if suffix in twincat.SUFFIXES:
-            return _of_container(text, found.units, found.globals, str(path), known)
+        found = read_all(text.text, file, known[path, 0], text.list)
+        if isinstance(text, twincat.Container) and suffix in twincat.SUFFIXES:
+            return _of_container(text, found.units, found.globals, file, known[path, 0])
     except Unjudged as error:
         if suffix not in twincat.SUFFIXES:
             raise
         words = frozenset(re.findall(r"%?\w+", content.decode("utf-8", "replace").upper()))
         return _File(refused={path.stem.upper(): error}, words={path.stem.upper(): words})
-    units = found.units
-    if suffix == ".scl":
-        units = [replace(unit, fresh=False) for unit in units]
-        doubtful = open_at_power_up(content.decode("utf-8-sig"))
-        units = [
-            replace(unit, notes=(NOT_KEPT.format(unit.name),)) if unit.name.upper() in doubtful else unit
-            for unit in units
-        ]
-    return _File([(unit, None) for unit in units], shared=found.globals, tasks=found.tasks)
+    return _File([(unit, None) for unit in found.units], shared=found.globals, tasks=found.tasks)
+
+
+def _blocks(content: bytes, path: Path, texts: Mapping[Key, Text], known: Mapping[Key, Known]) -> _File:
+    """The blocks of one source of TIA; one that cannot be read is refused alone."""
+    units: list[tuple[Unit, Lower | None]] = []
+    shared: list[Variable] = []
+    refused: dict[str, Unjudged] = {}
+    words: dict[str, frozenset[str]] = {}
+    doubtful = open_at_power_up(_decoded(content, path))
+    for key, block in texts.items():
+        if key[0] != path:
+            continue
+        if isinstance(block, Unjudged):
+            raise block
+        assert isinstance(block, tia.Block)
+        try:
+            if block.refused is not None:
+                raise block.refused
+            found = read_all(block.text, str(path), known[key], block.list)
+        except Unjudged as error:
+            refused[block.name.upper()], words[block.name.upper()] = error, block.words
+            continue
+        shared += found.globals
+        for unit in found.units:
+            notes = (NOT_KEPT.format(unit.name),) if unit.name.upper() in doubtful else ()
+            units.append((replace(unit, fresh=False, notes=notes), None))
+    return _File(units, refused, shared, words=words)
 
 
 def _of_container(

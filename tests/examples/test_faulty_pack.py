@@ -40,6 +40,8 @@ from tests.examples.test_diagnosis import leads_there
 
 FAULTS = load_faults()
 PACKS = {program.target: program for program in programs()}
+AT_ONCE = 6
+"""The kit waits a moment before it believes a difference, so more than one a core."""
 EVERY = [(target, fault) for target, program in PACKS.items() for fault in load_faults(program.pack)]
 
 
@@ -52,13 +54,13 @@ class Judged:
     verdicts: dict[str, Verdict]
 
 
-def two_at_a_time(
+def several_at_a_time(
     made: Mapping[str, Path], faults: Sequence[Fault], suites: Mapping[str, Suite]
 ) -> dict[str, Verdict]:
     """As `judge_all`, in processes of their own: threads would wait for one another at each scan."""
     work = partial(of_fault, made, suites)
     found: dict[str, Verdict] = {}
-    for outcome in in_forks(work, faults, 2, PATIENCE_S):
+    for outcome in in_forks(work, faults, AT_ONCE, PATIENCE_S):
         if outcome is not None:
             assert outcome.result is not None, outcome.why
             found[faults[outcome.number].id] = outcome.result
@@ -80,7 +82,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Judged]:
         made = build_all(tmp_path_factory.mktemp(target), faults, program)
         suites = open_all(program)
         wrong = [one for one in faults if not one.reason]
-        return Judged(made, suites, two_at_a_time(made, wrong, suites))
+        return Judged(made, suites, several_at_a_time(made, wrong, suites))
 
     return of
 

@@ -18,6 +18,12 @@ from modeproof.output.outcome import Counterexample, Scan, read, unjudged
 from tests.output.outcomes import FOREIGN, SCANS, outcome
 
 SVG = "{http://www.w3.org/2000/svg}"
+CAUSES = {
+    "no/such/a.sarif": "No such file or directory",
+    "old/a.sarif": "Not a directory",
+    ".": "Is a directory",
+    "old/../no/such": "No such file or directory",
+}
 EXAMPLE = Counterexample(scans=SCANS, wrong=["Lamp"])
 
 
@@ -162,9 +168,10 @@ def test_two_results_for_standard_output_are_refused(wrong: Path, capfd: pytest.
 
 
 def test_a_form_that_cannot_be_written_is_one_line(wrong: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    words = ["prove-program", "edm.st", "--target", "sf_edm", "--sarif", "no/such/a.sarif"]
-    assert main(words) == 2
-    assert "no/such/a.sarif" in capfd.readouterr().err
+    (wrong / "old").write_text("a file", "utf-8")
+    for place in ("no/such/a.sarif", "old/a.sarif", ".", "old/../no/such"):
+        assert main(["prove-program", "edm.st", "--target", "sf_edm", "--sarif", place]) == 2
+        assert capfd.readouterr() == ("", f"modeproof: {Path(place)}: cannot be written: {CAUSES[place]}\n")
 
 
 def test_the_kit_alone_writes_to_standard_output(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import replace
 
 from modeproof.ground.errors import suggestion
@@ -64,12 +65,14 @@ def read_expression(text: str, place: Place) -> Expression:
 class Diagram:
     """Makes the statements of one FBD or LD body."""
 
-    def __init__(self, source: Source, unit: Unit, body: Element) -> None:
+    def __init__(
+        self, source: Source, unit: Unit, body: Element, beyond: Mapping[str, frozenset[str]]
+    ) -> None:
         self.source, self.body = source, body
         self.variables = dict(unit.variables)
         self.made = replace(unit, variables=self.variables)
         self.types = Types(source, self.made)
-        self.order = Order(read_nodes(body, read_expression))
+        self.order = Order(read_nodes(body, read_expression), beyond)
         self.statements: list[Statement] = []
         self.outputs: dict[tuple[str, str], Expression] = {}
         self.versions: dict[str, int] = defaultdict(int)

@@ -2,7 +2,8 @@
 
 What is drawn does not always say what is carried out first. An order that is written (executionOrderId) is
 taken; without one, elements follow the flow of data, and networks that lie below each other run from top to
-bottom. Where that leaves open who reads or writes a variable first, the body is refused.
+bottom. Where that leaves open who reads or writes a variable first, the body is refused; so it is where
+`generated_order` has it the other way round, unless titles of networks (CODESYS) say what comes first.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from functools import cached_property
 from modeproof.ground.errors import suggestion
 from programs.language.tree import Binary, Bit, Expression, Function, Index, Member, Name, Unary
 from programs.readers.plcopen.diagrams import Node, Pin
+from programs.readers.plcopen.generated_order import differs, generated, read_anew
 
 
 def roots(expression: Expression | None) -> Iterator[str]:
@@ -50,6 +52,8 @@ class Order:
     """The elements of a body in the order in which they run."""
 
     nodes: Mapping[str, Node]
+    beyond: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """For each block by its name in upper case: the globals that it, or one below it, may use."""
     after: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     """For each element those that must have run before it."""
 
@@ -110,7 +114,8 @@ class Order:
         targets = [node.instance, *(target for out in node.outs for target in out.targets)]
         if node.kind in ("outVariable", "inOutVariable", "coil"):
             targets.append(node.variable)
-        return {written_root(target) for target in targets} - {""}
+        shared = self.beyond.get(node.block.upper(), frozenset())
+        return {written_root(target) for target in targets} - {""} | shared
 
     @cached_property
     def numbers(self) -> dict[str, int]:
@@ -152,6 +157,7 @@ class Order:
             self._by_networks()
         found = self._sorted()
         self._clear(found)
+        self._same_elsewhere(found)
         return found
 
     def _by_networks(self) -> None:
@@ -212,16 +218,46 @@ class Order:
         for n, node in enumerate(found):
             for key in self.after[node.id]:
                 before[n] |= before[number[key]] | 1 << number[key]
-        touched: dict[str, list[tuple[int, bool]]] = defaultdict(list)
-        for n, node in enumerate(found):
-            written = self.writes(node)
-            for name in written | self.reads(node):
-                touched[name].append((n, name in written))
-        for name, places in touched.items():
-            for second, (n, writes) in enumerate(places):
-                for m, also in places[:second]:
+        for name, places in self._uses(found).items():
+            for second, (key, writes) in enumerate(places):
+                for other, also in places[:second]:
+                    n, m = number[key], number[other]
                     if (writes or also) and not before[n] >> m & 1:
                         raise found[n].place.refuse(
                             f"{name}: {found[m].what()} (line {found[m].place.line}) and {found[n].what()}"
                             " use it, and nothing says which comes first; give both an executionOrderId"
                         )
+
+    def _uses(self, found: Sequence[Node]) -> dict[str, list[tuple[str, bool]]]:
+        """For each variable and instance the elements that use it, in order, and whether they change it."""
+        touched: dict[str, list[tuple[str, bool]]] = defaultdict(list)
+        for node in found:
+            written = self.writes(node)
+            for name in written | self.reads(node):
+                touched[name].append((node.id, name in written))
+        return touched
+
+    def _same_elsewhere(self, found: Sequence[Node]) -> None:
+        """Refuse a body that tools carry out in another order, where that makes a difference."""
+        uses = self._uses(found)
+        for node in found:
+            for _, source in self.sources(node):
+                if source.kind == "block":
+                    uses.setdefault(f"the output of {source.what()}", []).append((node.id, False))
+        for node in found:
+            if (key := f"the output of {node.what()}") in uses:
+                uses[key].append((node.id, True))
+        sources = {node.id: [source for _, source in self.sources(node)] for node in found}
+        again = read_anew(found, sources)
+        ways = [again] if any(node.network for node in found) else [again, *generated(self.running, sources)]
+        for events in ways:
+            if (pair := differs(found, events, uses)) is not None:
+                name, one, other = pair
+                first = f"{name}: {one.what()} (line {one.place.line})"
+                raise other.place.refuse(
+                    f"{first} feeds several elements, and tools read it once, or again for each of them;"
+                    " put a variable between"
+                    if events is again
+                    else f"{first} comes before {other.what()} here, and the generator of Beremiz and OpenPLC"
+                    " takes them the other way round; write this in Structured Text, or number all from 1 on"
+                )

@@ -8,7 +8,7 @@ comes out of a gate or a contact is a temporary variable. Whatever is not known 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -83,6 +83,7 @@ def read_plcopen(text: bytes, file: str) -> Project:
             found.refused[kind.attributes.get("name", "").upper()] = error
             found.words[kind.attributes.get("name", "").upper()] = frozenset()
     names: set[str] = set()
+    beyond: dict[str, frozenset[str]] = {}
     for pou in root.below("pou"):
         name = pou.get("name").upper()
         if name in names or name in found.refused:
@@ -90,7 +91,7 @@ def read_plcopen(text: bytes, file: str) -> Project:
         names.add(name)
         found.words[name] = frozenset(_words(pou))
         try:
-            found.units.append(_pou(pou, _Text([*types.lines]), file))
+            found.units.append(_pou(pou, _Text([*types.lines]), file, beyond))
         except Unjudged as error:
             found.refused[name] = error
     if not names and not found.refused:
@@ -100,11 +101,32 @@ def read_plcopen(text: bytes, file: str) -> Project:
         _put_group(group, "VAR_GLOBAL", globals_)
     read = read_all("\n".join(globals_.lines), file)
     found.shared = read.globals
+    beyond.update(_beyond(root, found))
     for task in root.below("task"):
         programs = tuple(one.get("typeName") for one in task.all("pouInstance"))
         given = task.attributes.get("interval")
         interval = time_ms(given, task.place) if given and "#" in given else None
         found.tasks.append(Task(task.get("name"), interval, programs, task.place))
+    return found
+
+
+def _beyond(root: Element, project: Project) -> dict[str, frozenset[str]]:
+    """For each POU the globals that it, or one that it names, may use: all whose names are in its text."""
+    lists = {group.attributes.get("name", "").upper() for group in root.below("globalVars")} - {""}
+    shared = lists | {one.name.upper() for one in project.shared}
+    shared |= {
+        variable.get("name").upper()
+        for group in root.below("externalVars")
+        for variable in group.all("variable")
+    }
+    found: dict[str, frozenset[str]] = {}
+    for name in project.words:
+        below, waiting = {name}, [name]
+        while waiting:
+            more = (project.words[waiting.pop()] & set(project.words)) - below
+            below |= more
+            waiting += more
+        found[name] = frozenset().union(*(project.words[one] & shared for one in below))
     return found
 
 
@@ -135,7 +157,7 @@ def _words(element: Element) -> Iterator[str]:
         yield from _words(child)
 
 
-def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
+def _pou(pou: Element, text: _Text, file: str, beyond: Mapping[str, frozenset[str]]) -> tuple[Unit, Lower]:
     """One POU, behind the data types of the project."""
     body = _body(pou, pou.get("name"))
     unit = _with_body(pou, _Text([*text.lines]), body, file)
@@ -151,7 +173,7 @@ def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
         if key in bodies or key in unit.variables:
             raise action.place.refuse(f"{unit.name}: {action.get('name')} stands for something else too")
         bodies[key] = partial(_action, pou, action, text, file)
-    return replace(unit, place=pou.place), _lower(unit, body, pou.place, bodies)
+    return replace(unit, place=pou.place), _lower(unit, body, pou.place, bodies, beyond)
 
 
 def _retains_nothing(pou: Element, file: str) -> None:
@@ -364,7 +386,13 @@ def _value(element: Element) -> str:
 # ---------------------------------------------------------------- bodies
 
 
-def _lower(unit: Unit, body: Element, place: Place, actions: dict[str, Callable[[], Body]]) -> Lower:
+def _lower(
+    unit: Unit,
+    body: Element,
+    place: Place,
+    actions: dict[str, Callable[[], Body]],
+    beyond: Mapping[str, frozenset[str]],
+) -> Lower:
     def lower(source: Source) -> Unit:
         if body.name == "ST":
             if not unit.body:
@@ -376,6 +404,6 @@ def _lower(unit: Unit, body: Element, place: Place, actions: dict[str, Callable[
             raise body.place.refuse(
                 f"{unit.name}: a function, and a block with VAR_IN_OUT, has a body in ST here"
             )
-        return Diagram(source, unit, body).unit(place)
+        return Diagram(source, unit, body, beyond).unit(place)
 
     return lower

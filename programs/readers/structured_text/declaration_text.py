@@ -63,6 +63,7 @@ def taken_apart(text: str, file: str) -> Declared:
     made = Declared("")
     parts: list[str] = []
     at, inside, structures, start = 0, "", 0, False
+    line, seen = 1, 0
 
     def here() -> int:
         return len("".join(parts).encode("utf-8"))
@@ -70,16 +71,16 @@ def taken_apart(text: str, file: str) -> Declared:
     while at < len(text):
         if start and (names := _MEMBERS.match(text, at)):
             head = names[0][: names.end(1) - at]
-            line = text.count("\n", 0, names.end(1)) + 1
             parts.append(head)
-            made.members[here() - len(names[1])] = line, re.findall(r"\w+", names[2])
+            there = text.count("\n", 0, names.end(1)) + 1
+            made.members[here() - len(names[1])] = there, re.findall(r"\w+", names[2])
             parts.append(_blank(names[2]) + text[names.end(2) : names.end()])
             at, start = names.end(), False
             continue
         match = _TOKEN.match(text, at)
         assert match is not None
         found, kind = match[0], match.lastgroup
-        line = text.count("\n", 0, at) + 1
+        line, seen = line + text.count("\n", seen, at), at
         word = found.upper() if kind == "word" else ""
         if found.strip() and kind != "comment":
             start = False

@@ -168,20 +168,6 @@ def ordered(first: int, second: int) -> str:
 def test_the_written_order_is_kept(tmp_path: Path) -> None:
     assert rows(machine(tmp_path, ordered(1, 2)), "0 1 0 0") == "0100"
     assert rows(machine(tmp_path, ordered(2, 1)), "0 1 0 0") == "0010"
-    assert rows(machine(tmp_path, ordered(1, 0)), "0 1 0 0") == "0010"
-
-
-def placed(first: int, second: int) -> str:
-    """The same without numbers, at these heights."""
-    place = '<position x="1" y="{}"/><connectionPoint'
-    one = (reading(1, "a") + writing(3, "x", 1)).replace("<connectionPoint", place.format(first))
-    two = (reading(2, "x") + writing(4, "q", 2)).replace("<connectionPoint", place.format(second))
-    return two + one
-
-
-def test_networks_run_from_top_to_bottom(tmp_path: Path) -> None:
-    assert rows(machine(tmp_path, placed(10, 90)), "0 1 0 0") == "0100"
-    assert rows(machine(tmp_path, placed(90, 10)), "0 1 0 0") == "0010"
 
 
 def test_titles_of_networks_tell_their_order(tmp_path: Path) -> None:
