@@ -168,7 +168,7 @@ def _look(args: argparse.Namespace) -> None:
             "flips",
         ),
         "target": ("old_unit",),
-        "against": ("vector", "same", "codes", "latency", "certificate", "flips"),
+        "against": ("vector", "same", "codes", "latency", "flips"),
         "property": ("vector", "same", "codes", "latency", "old_unit", "flips"),
     }
     for name in beside.get(asked[0], ()):

@@ -87,10 +87,17 @@ def obligations(product: Product) -> Iterator[Obligation]:
 # ---------------------------------------------------------------- writing
 
 
-def write(product: Product, replayed: Replayed, folder: Path, binding: Path | None = None) -> dict[Pair, Run]:
+def write(
+    product: Product,
+    replayed: Replayed,
+    folder: Path,
+    binding: Path | None = None,
+    claim: Mapping[str, Any] | None = None,
+) -> dict[Pair, Run]:
     """Write the certificate of a proof into a folder that is new, empty, or an older certificate.
 
-    binding: the binding file. Returns the scans that lead to each pair, as far as some were found.
+    binding: the binding file; claim: what is claimed, if it is not equality with a reference. Returns the
+    scans that lead to each pair, as far as some were found.
 
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
@@ -99,7 +106,7 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
     except NotImplementedError as error:
         raise Unjudged(f"{folder}: no certificate can be written: {error}") from None
     record: dict[str, Any] = {
-        **_claim(product),
+        **(_claim(product) if claim is None else claim),
         "binding_file": {} if binding is None else {str(binding): digest(binding)},
         "pairs": [],
     }
@@ -220,12 +227,13 @@ def _run_written(run: Run) -> dict[str, Any]:
 class Kept(Stored):
     """A certificate as it was read: its pairs and relations can be given to a product."""
 
-    def fill(self, product: Product) -> dict[Pair, Run | None]:
+    def fill(self, product: Product, claim: Mapping[str, Any] | None = None) -> dict[Pair, Run | None]:
         """Give the product the pairs and relations of the certificate; returns the way to each pair.
 
-        Raises Unjudged for what is no pair or relation of this program.
+        claim: what it must claim, as in `write`. Raises Unjudged for what is no pair or relation of this
+        program.
         """
-        self.claims(_claim(product))
+        self.claims(_claim(product) if claim is None else claim)
         ways: dict[Pair, Run | None] = {}
         product.nodes = {}
         try:

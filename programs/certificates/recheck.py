@@ -12,18 +12,19 @@ import cvc5
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs.certificates import demand_certificate, property_certificate
+from programs.certificates import change_certificate, demand_certificate, property_certificate
 from programs.certificates.certificate_folder import NAME, Obligation, record_in
 from programs.certificates.demand_certificate import REFERENCE
 from programs.certificates.equality_certificate import FORMAT, obligations, read
 from programs.demands.verdicts import Judgement as DemandJudgement
 from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
+from programs.equality.two_programs import Pair as Two
 from programs.invariants.induction import Proof
 from programs.properties.property_verdicts import Judgement
 from programs.properties.transition_system import Asked
 
-FORMATS = (FORMAT, property_certificate.FORMAT, demand_certificate.FORMAT)
+FORMATS = (FORMAT, property_certificate.FORMAT, demand_certificate.FORMAT, change_certificate.FORMAT)
 FOLLOWS = "follows"
 """The folder in the certificate of equality that holds that of the demands."""
 LIMIT_MS = 300_000
@@ -112,6 +113,7 @@ def recheck(folder: Path) -> Rechecked:
         FORMAT: _equality,
         property_certificate.FORMAT: _properties,
         demand_certificate.FORMAT: _demands,
+        change_certificate.FORMAT: _change,
     }
     return kinds[record_in(folder, *kinds)["format"]](folder)
 
@@ -181,10 +183,45 @@ def _about_equality(product: Product, answers: Answers, unreached: Sequence[Pair
         yield f"{answers.word}: {answers.folder} does not show that {name} equals {target}"
     for label, text in about(product):
         yield f"  {label:<11} {text}"
-    way = "scans from power-up were replayed to each"
+    yield f"  pairs       {len(product.nodes)}; {_way_to(unreached)}"
+
+
+def _change(folder: Path) -> Rechecked:
+    kept, pair, product = change_certificate.read(folder)
+    ways = kept.fill(product, change_certificate.claim_of(pair, product, kept.record))
+    unreached = kept.follow(product, ways)
+    owed = list(obligations(product))
+    kept.compare({part.file: part.text for part in owed})
+    answers = asked(folder, owed)
+    return Rechecked(answers, list(_about_change(kept.record, pair, product, answers, unreached)), unreached)
+
+
+def _about_change(
+    record: Mapping[str, Any],
+    pair: Two,
+    product: Product,
+    answers: Answers,
+    unreached: Sequence[Pair],
+) -> Iterator[str]:
+    new = f"{pair.new.name} of {', '.join(record['sources'])}"
+    old = f"{record['old_unit']} of {', '.join(record['old_sources'])}"
+    if answers.status == 0:
+        yield f"{answers.word}: {new} gives the outputs of {old} in every scan, for ever"
+    else:
+        yield f"{answers.word}: {answers.folder} does not show that {new} gives the outputs of {old}"
+    yield f"  compared    {', '.join(record['compared'])}"
+    if record["unless"]:
+        yield f"  except      where {record['unless']}"
+    if record["constant"]:
+        yield f"  constant    {', '.join(record['constant'])}: as in the first scan"
+    yield f"  numbers     {'wrap' if record['wrap'] else 'stay within their types in both'}"
+    yield f"  pairs       {len(product.nodes)}; {_way_to(unreached)}"
+
+
+def _way_to(unreached: Sequence[Pair]) -> str:
     if unreached:
-        way = f"no scans are known to {', '.join(map(shown, unreached))}"
-    yield f"  pairs       {len(product.nodes)}; {way}"
+        return f"no scans are known to {', '.join(map(shown, unreached))}"
+    return "scans from power-up were replayed to each"
 
 
 def _properties(folder: Path) -> Rechecked:

@@ -16,7 +16,7 @@ from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Counterexample, Demand, Outcome, Problem, Rule, Scan, shown_path
 from modeproof.registers.files import read_own_toml
-from programs.certificates import equality_certificate
+from programs.certificates import change_certificate
 from programs.certificates.certificate_folder import tools
 from programs.commands.outcomes import common, spot_of
 from programs.commands.results import write_record
@@ -25,12 +25,12 @@ from programs.equality.two_as_one import product_of, random_runs, shown_scans
 from programs.equality.two_programs import Names, Pair
 from programs.equality.verdict import Verdict, judge_after
 from programs.language.tool_differences import assumed
-from programs.language.tree import Place
+from programs.language.tree import Place, Source
 from programs.properties.property_file import parsed
 from programs.readers.sources import read_sources
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
-TRUSTED = (*(one for one in equality_certificate.TRUSTED if "explorer" not in one), "z3")
+TRUSTED = (*change_certificate.TRUSTED, "z3")
 
 
 def judge_against(args: argparse.Namespace) -> Outcome:
@@ -47,8 +47,9 @@ def judge_against(args: argparse.Namespace) -> Outcome:
     product = product_of(pair, args.wrap)
     found = judge_after(product, random_runs(product), args.seconds, tell)
     tell("")
+    lines = list(_certificate(pair, found, (new, old), args))
     seconds = time.process_time() - started
-    text = "\n".join(text_of(pair, found, args, seconds))
+    text = "\n".join([*text_of(pair, found, args, seconds), *lines])
     print(text)
     record = record_of(pair, found, args, seconds)
     write_record(root(), record, args.json)
@@ -65,6 +66,21 @@ def judge_against(args: argparse.Namespace) -> Outcome:
         assumptions=assumptions,
         **known,
     )
+
+
+def _certificate(
+    pair: Pair, found: Verdict, sources: tuple[Source, Source], args: argparse.Namespace
+) -> Iterator[str]:
+    """Write the certificate that is asked for; what is said of it."""
+    if args.certificate is None:
+        return
+    if found.word != "PROVED" or found.replayed is None:
+        yield f"  certificate none: it is {found.word}"
+        return
+    of, place = found.product, args.certificate
+    unreached = change_certificate.write_change(pair, of, found.replayed, sources, place, args.binding)
+    way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
+    yield f"  certificate {place}{way}; check it with --recheck {place}"
 
 
 def read_names(path: Path) -> Names:

@@ -109,6 +109,11 @@ class Same:
         """Numbers of a solver."""
         return {path: values[path] for path in self.signals(group)}
 
+    def with_defaults(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """What is not given is zero, or what of its type is next to it."""
+        kinds = {path: self.slots[path].type for path in self.signals("parameters")}
+        return {path: values.get(path, min(max(0, kind.low), kind.high)) for path, kind in kinds.items()}
+
     def start(self, parameters: Mapping[str, Any]) -> None:
         """It has no memory."""
 
@@ -184,6 +189,19 @@ class Beside:
         clock = {CLOCK: dt_ms} if self.pair.clock is not None else {}
         return whole(self.unit, {**inputs, **parameters, **clock})
 
+    def fixed_parameters(self) -> dict[str, Any]:
+        """None."""
+        return {}
+
+    def allows(self, parameters: Mapping[str, Any]) -> bool:
+        """Whether these are values of the inputs that keep their first value."""
+        of = self.reference
+        wanted = of.signals("parameters")
+        kinds = {path: of.slots[path].type for path in wanted}
+        return set(parameters) == set(wanted) and all(
+            kind.low <= parameters[path] <= kind.high for path, kind in kinds.items()
+        )
+
     @cached_property
     def longest_scan(self) -> int | None:
         """The longest time between scans that an input for it can hold, in ms."""
@@ -205,9 +223,9 @@ class ProductOfTwo(Product):
         return replace(super().vocabulary, keys=frozenset(keys & self.symbols.keys()))
 
 
-def product_of(pair: Pair, wrap: bool) -> Product:
-    """Both programs as one, beside what gives TRUE."""
-    return ProductOfTwo(cast(Binding, Beside(pair)), wrap)
+def product_of(pair: Pair, wrap: bool, split: tuple[str, ...] = ()) -> Product:
+    """Both programs as one, beside what gives TRUE. split: as of a product."""
+    return ProductOfTwo(cast(Binding, Beside(pair)), wrap, split)
 
 
 def random_runs(product: Product, seed: int = 1) -> Difference | Replayed:

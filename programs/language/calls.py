@@ -8,6 +8,7 @@ from typing import Any
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     Array,
+    Bit,
     Body,
     Call,
     Case,
@@ -15,8 +16,10 @@ from programs.language.tree import (
     For,
     Function,
     If,
+    Index,
     Instance,
     Loop,
+    Member,
     Name,
     Scalar,
     Source,
@@ -54,11 +57,51 @@ def called_functions(part: Any) -> Iterator[str]:
             waiting += here if isinstance(here, tuple) else vars(here).values()
 
 
+def names_in(expression: Any) -> Iterator[str]:
+    """The variables in an expression, in upper case."""
+    if isinstance(expression, Name):
+        yield expression.name.upper()
+    elif isinstance(expression, tuple):
+        for part in expression:
+            yield from names_in(part)
+    elif hasattr(expression, "place"):
+        yield from names_in(tuple(vars(expression).values()))
+
+
+def paths_in(expression: Any) -> Iterator[tuple[str, ...]]:
+    """What an expression reads or names: a variable with its members, up to the first index."""
+    match expression:
+        case Name(name, _):
+            yield (name.upper(),)
+        case Member(of, name, _):
+            first, *others = paths_in(of)
+            yield first if _indexed(of) else (*first, name.upper())
+            yield from others
+        case Index(of, index, _):
+            yield from paths_in(of)
+            yield from paths_in(index)
+        case Bit(of, _, _):
+            yield from paths_in(of)
+        case tuple():
+            for part in expression:
+                yield from paths_in(part)
+        case _ if hasattr(expression, "place"):
+            yield from paths_in(tuple(vars(expression).values()))
+
+
+def _indexed(target: Any) -> bool:
+    while isinstance(target, Member):
+        target = target.of
+    return not isinstance(target, Name)
+
+
 def check_function(unit: Unit) -> None:
     """Refuse a FUNCTION that remembers something, or whose pins are not single values."""
     for variable in unit.variables.values():
         if variable.section == "external" and not any(blocks_in(variable.type)):
             continue  # it belongs to the program
+        if variable.section == "in_out" and not any(blocks_in(variable.type)):
+            continue  # it is the caller's
         handed = variable.section in ("input", "output", "in_out")
         if not isinstance(variable.type, Scalar | Array) or variable.retained:
             raise variable.place.refuse(f"{variable.name}: a FUNCTION has plain variables here")

@@ -14,7 +14,14 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.language.addresses import Addresses, area_of
-from programs.language.calls import Pairs, function_of, handed_to_block, handed_to_function, inner_bodies
+from programs.language.calls import (
+    Pairs,
+    function_of,
+    handed_to_block,
+    handed_to_function,
+    inner_bodies,
+    names_in,
+)
 from programs.language.subset import reached
 from programs.language.tree import (
     Body,
@@ -361,16 +368,11 @@ class _Uses:
             return
         shared = set(unit.of_keys("external"))
         written, touched = self.written(reached(self.source, own, ())), self.touched(own)
-        ins = {name for _, value in given for name in _names(value)} & shared & written
+        ins = {name for _, value in given for name in names_in(value)} & shared & written
         outs = {root_of(target) for _, target in got} & shared & touched
         for name in sorted(ins | outs):
             text = f"{own.name} uses {unit.variables[name].name}, and this call hands it over"
             raise part.place.refuse(f"{text}: S7 may take the variable itself, or a copy")
-
-
-def _names(expression: Any) -> Iterator[str]:
-    """The variables in an expression, in upper case."""
-    return (part.name.upper() for part in _parts(expression) if isinstance(part, Name))
 
 
 def _parts(node: Any) -> Iterator[Any]:

@@ -14,6 +14,7 @@ from programs.language.calls import (
     handed_to_function,
     in_outs,
     inner_bodies,
+    paths_in,
     sides,
 )
 from programs.language.scan_length import check_length
@@ -259,6 +260,8 @@ class _Statements(Types):
             )
             lent = {name.upper(): variable for name, variable in unit.of("in_out").items()}
             self.in_outs(unit.name, lent, inputs, place)
+            if not unit.fresh:
+                self.apart(unit, inputs, outputs, place)
             self.pins(unit.name, ins, inputs, place, False)
             self.pins(unit.name, outs, outputs, place, True)
             return
@@ -270,6 +273,18 @@ class _Statements(Types):
         self.in_outs(kind.block, in_outs(self.source, kind), inputs, place)
         self.pins(kind.block, ins, inputs, place, False)
         self.pins(kind.block, outs, outputs, place, True)
+
+    def apart(self, unit: Unit, inputs: Pairs, outputs: Pairs, place: Place) -> None:
+        """Refuse a variable that goes into a FUNCTION of S7 and comes out of it: it may be one, or a copy."""
+        lent = unit.of_keys("in_out")
+        out = [value for name, value in inputs if name.upper() in lent]
+        out += [target for name, target in outputs if name.upper() != unit.name.upper()]
+        given = [value for name, value in inputs if name.upper() not in lent]
+        read = [path for value in given for path in paths_in(value)]
+        for path in (next(paths_in(target)) for target in out):
+            if any(path[: len(other)] == other or other[: len(path)] == path for other in read):
+                text = f"{self.unit.variables[path[0]].name} goes into {unit.name} and comes out of it"
+                raise place.refuse(f"{text}: S7 may take the variable itself, or a copy")
 
     def pins(self, of: str, known: Mapping[str, Type], given: Pairs, place: Place, out: bool) -> None:
         """Refuse an argument of a call that is unknown, given twice, or of another type."""

@@ -11,9 +11,9 @@ from typing import Final
 
 RETAINED: Final = frozenset({"tcretain", "tcpersistent", "tcinitsymbol"})
 """The variable behind it keeps its value, or gets one from outside, before the first scan."""
-_DROPPED: Final = frozenset({
-    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "obsolete", "pack_mode",
-    "qualified_only", "reflection", "strict", "to_string",
+DROPPED: Final = frozenset({
+    "analysis", "displaymode", "hide", "no_check", "hide_all_locals", "linkalways", "naming", "obsolete",
+    "pack_mode", "qualified_only", "reflection", "strict", "to_string",
     "tcdisplayscale", "tchidesubitems", "tcignorepersistent", "tclinkto", "tclinktooso", "tcnosymbol",
 })  # fmt: skip
 _DROPPED_WITH: Final = {"symbol": ("none", "read"), "monitoring": ("variable",), "opc.ua.da": ("0",)}
@@ -28,7 +28,7 @@ def dropped(name: str, value: str) -> bool:
     if key == "pytmc":  # what EPICS shows of it; without `io: i` it writes as well
         ways = _WAYS.findall(value.lower())
         return bool(ways) and set(ways) <= {"i", "ro"}
-    return key in _DROPPED or value.strip().lower() in _DROPPED_WITH.get(key, ())
+    return key in DROPPED or value.strip().lower() in _DROPPED_WITH.get(key, ())
 
 
 def retained(name: str) -> bool:

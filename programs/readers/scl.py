@@ -38,7 +38,7 @@ TOKEN = re.compile(
     re.VERBOSE | re.DOTALL | re.MULTILINE | re.IGNORECASE,
 )  # fmt: skip
 _ATTRIBUTE = re.compile(r"\s*(\w+)\s*:=\s*'((?:\$.|[^'$])*)'\s*", re.ASCII)
-_DROPPED = frozenset({
+DROPPED = frozenset({
     "s7_optimized_access", "externalaccessible", "externalvisible", "externalwritable", "instructionname",
     "libversion", "s7_m_c", "s7_shortcut", "s7_unit", "s7_visible", "s7_dynamic", "s7_param", "s7_link",
     "s7_string_0", "s7_string_1", "s7_tasklist", "s7_blockview", "s7_setpoint",
@@ -149,7 +149,7 @@ def _attributes(found: str, place: Place) -> str:
     for name, value in _ATTRIBUTE.findall(found):
         if name.lower() in _CLIENTS and value.lower() != "false":
             raise place.refuse(f"attribute {name} lets a client write the data: set it to 'FALSE'")
-        if name.lower() not in (*_DROPPED, *_CLIENTS):
+        if name.lower() not in (*DROPPED, *_CLIENTS):
             raise place.refuse(f"attribute {name} may change what the program does; take it out")
     if left:
         raise place.refuse(f"{' '.join(found.split())[:40]}: NAME := 'value' is understood in braces")

@@ -288,10 +288,11 @@ def _blocks(content: bytes, path: Path, texts: Mapping[Key, Text], known: Mappin
             if block.refused is not None:
                 raise block.refused
             found = read_all(block.text, str(path), known[key], block.list)
+            own = tia.with_values(block, found.globals, known[key])
         except Unjudged as error:
             refused[block.name.upper()], words[block.name.upper()] = error, block.words
             continue
-        shared += found.globals
+        shared += own
         for unit in found.units:
             notes = (NOT_KEPT.format(unit.name),) if unit.name.upper() in doubtful else ()
             units.append((replace(unit, fresh=False, notes=notes), None))

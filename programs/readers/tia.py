@@ -8,19 +8,23 @@ keeps its values without power unless it says NON_RETAIN. A tag is a global at i
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 from modeproof.ground.errors import Unjudged
-from programs.language.tree import Place
+from programs.language.tree import Array, Place, Scalar, Struct, Type, Variable, shown
 from programs.readers.plcopen.xml_tree import Element, read_xml
 from programs.readers.scl import HEADS, TOKEN, named, structured_text
+from programs.readers.structured_text.types_and_values import Known
+from programs.readers.structured_text.units import read_all
 
 SUFFIXES = (".scl", ".db", ".udt")
 TABLES = (b"SW.Tags.PlcTagTable", b"<Tagtable")
 """One of these is in a table of tags."""
-_SET = re.compile(r"\s*([^\s:;]+)\s*:=\s*([^;]+);")
-_DECLARED = r'^(\s*"?{}"?\s*(?:\{{[^{{}}]*\}}\s*)?:)(?!=)([^;:]*)(?::=[^;]*)?;'
+_SET = re.compile(r"[\s;]*((?:\"[^\"\n]*\"|[^\s:;\"])+)\s*:=\s*([^;]+);")
+_STEP = re.compile(r"(\"[^\"]*\"|[^\W\d]\w*)|\[\s*(-?\d+)\s*\]")
+Value = tuple[str, str, Place]
+"""A path in a data block, the value that it has first, and where that is said."""
 _QUIET = ("comment", "about", "attributes")
 
 
@@ -37,6 +41,7 @@ class Block:
     text: str
     words: frozenset[str]
     list: str = ""
+    values: tuple[Value, ...] = ()
     refused: Unjudged | None = None
 
 
@@ -73,8 +78,8 @@ def _block(kind: str, name: str, text: str, line: int, file: str) -> Block:
         words = frozenset(named(token.strip('"')).upper() for token in tokens)
     try:
         if kind == "DATA_BLOCK":
-            text, group = _data_block(lines + text, name, file)
-            return Block(kind, name, structured_text(text, file), words, group)
+            text, group, values = _data_block(lines + text, name, file)
+            return Block(kind, name, structured_text(text, file), words, group, values)
         return Block(kind, name, structured_text(lines + text, file), words)
     except Unjudged as error:
         return Block(kind, name, "", words, refused=error)
@@ -83,8 +88,8 @@ def _block(kind: str, name: str, text: str, line: int, file: str) -> Block:
 # ---------------------------------------------------------------- data blocks
 
 
-def _data_block(text: str, name: str, file: str) -> tuple[str, str]:
-    """A data block as globals in SCL, and the list to which they belong."""
+def _data_block(text: str, name: str, file: str) -> tuple[str, str, tuple[Value, ...]]:
+    """A data block as globals in SCL, the list to which they belong, and the first values behind BEGIN."""
     parts: list[str] = []
     retains, depth, group, line, heading, begun = " RETAIN", 0, "", 1, 0, 0
     matches = list(TOKEN.finditer(text))
@@ -126,7 +131,8 @@ def _data_block(text: str, name: str, file: str) -> tuple[str, str]:
             )
     if not group:
         raise Place(file, line).refuse(f"data block {name} has no content that is known")
-    return _with_values("".join(parts), matches[begun:], name, line, file), "" if group == "?" else group
+    values = _values(matches[begun:] if begun else [], name, line, file)
+    return "".join(parts), "" if group == "?" else group, values
 
 
 def _next(matches: list[re.Match[str]], n: int) -> str:
@@ -134,28 +140,68 @@ def _next(matches: list[re.Match[str]], n: int) -> str:
     return next((match[0].upper() for match in matches[n + 1 :] if match[0].strip()), "")
 
 
-def _with_values(text: str, behind: list[re.Match[str]], name: str, line: int, file: str) -> str:
-    """The declarations with the first values that are behind BEGIN."""
-    given = "".join(
-        match[0] if match.lastgroup != "comment" else " "
+def _values(behind: list[re.Match[str]], name: str, line: int, file: str) -> tuple[Value, ...]:
+    """What is behind BEGIN: paths and values."""
+    text = "".join(
+        match[0] if match.lastgroup != "comment" else "\n" * match[0].count("\n")
         for match in behind
         if match.lastgroup != "begin" and match[0].upper() != "END_DATA_BLOCK"
     )
-    while given.strip(" \t\r\n;"):
-        match = _SET.match(given)
-        declared: list[re.Match[str]] = []
-        if match is not None and "STRUCT" not in text.upper().split():
-            own = _DECLARED.format(re.escape(match[1].strip('"')))
-            declared = list(re.finditer(own, text, re.MULTILINE | re.IGNORECASE))
-        if match is None or len(declared) != 1:
-            shown = " ".join(given.split())[:40]
-            raise Place(file, line).refuse(
-                f"data block {name}: this first value is not read here: {shown}; put it where it is declared"
-            )
-        (one,) = declared
-        text = f"{text[: one.start()]}{one[1]}{one[2]} := {match[2].strip()};{text[one.end() :]}"
-        given = given[match.end() :]
-    return text
+    found: list[Value] = []
+    while text.strip(" \t\r\n;"):
+        match = _SET.match(text)
+        if match is None:
+            shown = " ".join(text.split())[:40]
+            raise Place(file, line).refuse(f"data block {name}: this first value is not read here: {shown}")
+        line += text.count("\n", 0, match.start(1))
+        found.append((match[1], match[2].strip(), Place(file, line)))
+        line += text.count("\n", match.start(1), match.end())
+        text = text[match.end() :]
+    return tuple(found)
+
+
+def with_values(block: Block, declared: list[Variable], known: Known) -> list[Variable]:
+    """The globals of a data block with the first values that are behind BEGIN. Raises Unjudged."""
+    found = {one.name.upper(): one for one in declared}
+    for path, value, place in block.values:
+        steps = [
+            number or named(word.strip('"')).upper()
+            for word, number in _STEP.findall(path.replace(",", "]["))
+        ]
+        if not block.list:
+            steps.insert(0, block.name.upper())
+        if (one := found.get(str(steps[0]))) is None:
+            raise place.refuse(f"data block {block.name} has no {path}")
+
+        def read(kind: Scalar, value: str = value, place: Place = place) -> object:
+            text = "\n" * (place.line - 1) + f"VAR_GLOBAL v : {kind.name} := {value}; END_VAR"
+            return read_all(structured_text(text, place.file), place.file, known).globals[0].initial
+
+        initial = _put(one.type, one.initial, steps[1:], read, place)
+        found[one.name.upper()] = replace(one, initial=initial)
+    return list(found.values())
+
+
+def _put(
+    kind: Type, initial: object, steps: list[str], read: Callable[[Scalar], object], place: Place
+) -> object:
+    """An initial value in which one single value is another."""
+    if isinstance(kind, Scalar) and not steps:
+        return read(kind)
+    if isinstance(kind, Array) and steps and steps[0].lstrip("-").isdigit():
+        number, size = int(steps[0]) - kind.low, kind.high - kind.low + 1
+        given = list(initial) if isinstance(initial, tuple) else []
+        given += [None] * (size - len(given))
+        if 0 <= number < size:
+            given[number] = _put(kind.element, given[number], steps[1:], read, place)
+            return tuple(given)
+    if isinstance(kind, Struct) and steps:
+        own = dict(initial) if isinstance(initial, tuple) else {}
+        for name, inner, value in kind.members:
+            if name.upper() == steps[0]:
+                own[steps[0]] = _put(inner, own.get(steps[0], value), steps[1:], read, place)
+                return tuple(own.items())
+    raise place.refuse(f"this first value is not read here: it is of {shown(kind)}")
 
 
 # ---------------------------------------------------------------- tags

@@ -26,7 +26,6 @@ from programs.language.tree import (
     Loop,
     Place,
     Return,
-    Scalar,
     Source,
     Unit,
 )
@@ -161,10 +160,11 @@ class Machine(Evaluator):
         called = Frame(self.source, unit, frame.shared)
         for name, expression in inputs:
             kind = unit.variables[name.upper()].type
-            assert isinstance(kind, Scalar)
-            called.values[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, call.place)
+            called.values[name.upper()] = self.given(frame, expression, kind, call.place)
+        back = unit.of_keys("in_out")
+        lent = [(name.upper(), self.spot(frame, target)) for name, target in inputs if name.upper() in back]
         self.call(called)
-        lent = unit.of("in_out")
-        back = [pair for pair in inputs if unit.variables[pair[0].upper()].name in lent]
-        for name, target in (*back, *outputs):
+        for key, (holder, at) in lent:
+            holder[at] = deepcopy(called.values[key])
+        for name, target in outputs:
             self.store(frame, target, called.values[name.upper()])

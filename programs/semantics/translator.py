@@ -230,10 +230,13 @@ class Translator(Obliged):
         if (unit := function_of(self.source, at.types.unit, call)) is not None:
             inputs, outputs = handed_to_function(unit, call)
             given = {name.upper(): value for name, value in inputs}
+            back = {name.upper(): variable.type for name, variable in unit.of("in_out").items()}
+            lent = [(key, at.places(given[key], env, here)) for key in back]
             inner = at.called(given, unit, call.place, env, here)
             env |= {path: inner[path] for path in env}
-            back = {name.upper() for name in unit.of("in_out")}
-            for name, target in (*(pair for pair in inputs if pair[0].upper() in back), *outputs):
+            for key, spots in lent:
+                at.put(spots, {leaf: inner[f"{frame(unit)}{key}{leaf}"] for leaf in leaves(back[key])}, env)
+            for name, target in outputs:
                 at.assign(target, {"": inner[f"{frame(unit)}{name.upper()}"]}, env, here)
             return
         instances = at.places(call.instance, env, here)

@@ -273,11 +273,8 @@ class Context:
                 own = singles(variable.type, f"{above}{key}", variable.initial)
                 inner |= {path: constant(kind, value) for path, kind, value in own}
         for key, expression in arguments.items():
-            kind = unit.variables[key].type
-            assert isinstance(kind, Scalar)
-            term = self.value(expression, env, here, kind)
-            given = self.types.of(expression, kind)
-            inner[f"{above}{key}"] = self.translator.fitted(term, given, kind, place, here)
+            terms = self.handed(expression, unit.variables[key].type, place, env, here)
+            inner |= {f"{above}{key}{leaf}": term for leaf, term in terms.items()}
         self.translator.call(unit, above, inner, here, self.root)
         return inner
 

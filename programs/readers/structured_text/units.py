@@ -100,7 +100,16 @@ def _parsed(text: str, file: str, known: Known) -> tuple[_Reader, Any]:
     return _Reader(file, tuple((one.namespace, one.place) for one in using), apart, known), root
 
 
+_NAMED = {
+    "EXTENDS": "; inheritance is not supported",
+    "IMPLEMENTS": "; inheritance is not supported",
+}
+
+
 def _advice(shown: str) -> str:
+    for words, text in _NAMED.items():
+        if words in shown.upper():
+            return text
     if shown.upper().startswith(("WORD (", "BYTE (", "DWORD (")):
         return "; named values of a bit string are not supported: declare them as CONSTANT"
     return "; an address belongs in VAR alone (AT %IX0.0): give the variable a name" * shown.startswith("%")
@@ -261,6 +270,8 @@ class _Reader(TypesAndValues):
         for child in self.named(node):
             if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
                 continue
+            if child.type.endswith("identifier"):
+                raise self.refuse(child, f"inheritance is not supported: {self.text(child)}")
             if child.type not in SECTIONS or child.type == "var_global":
                 raise self.refuse(child)
             for variable in self.declared(child):

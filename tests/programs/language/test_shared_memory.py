@@ -13,6 +13,7 @@ from programs.language.shared_memory import completed
 from programs.language.subset import check
 from programs.language.tree import Unit
 from programs.readers.sources import read_sources
+from programs.semantics.interpreter import Machine
 from programs.semantics.terms import slots
 from tests.programs.fuzz import difference_of_text, source_of
 
@@ -228,3 +229,27 @@ def test_the_interval_of_a_task_is_the_scan_time(ms: int, times: str, status: in
     asked = '[[property]]\nid = "x"\nsentence = "It is off for three scans."\nnever = "q AND n < 4"\n'
     questions.write_text(f"{times}\n{asked}", "utf-8")
     assert main(["prove-program", str(program), "--property", str(questions)]) == status
+
+
+MOVES = """VAR_GLOBAL g : INT; END_VAR
+FUNCTION F
+VAR_IN_OUT x : INT; END_VAR
+x := 7; g := 1;
+END_FUNCTION
+PROGRAM P
+VAR_INPUT on : BOOL; END_VAR
+VAR_OUTPUT first, second : INT; END_VAR
+VAR a : ARRAY [0..1] OF INT; END_VAR
+g := 0;
+IF on THEN F(x := a[g]); END_IF
+first := a[0]; second := a[1];
+END_PROGRAM
+"""
+
+
+def test_what_is_lent_is_where_it_was_before_the_call() -> None:
+    source = source_of(MOVES)
+    unit = completed(source, source.main())
+    shown = Machine(source, unit).scan({"on": True}, 1)
+    assert (shown["first"], shown["second"]) == (7, 0)
+    assert difference_of_text(MOVES, 1, 20) == ""

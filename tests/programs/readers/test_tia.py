@@ -142,6 +142,20 @@ def test_a_data_block_of_a_type_is_one_global(tmp_path: Path) -> None:
     assert "COUNTED" in unit.variables
 
 
+def test_first_values_behind_begin_are_read(tmp_path: Path) -> None:
+    more = DATA.replace("   END_VAR", '      row : Array[0..2] of "typ Count";\n      w : Word;\n   END_VAR')
+    given = 'part.n := 7; // one\n"is on" := TRUE;\n row[1].n := -3;\n w := W#16#F0;'
+    body = MAIN.replace(
+        "BEGIN\n", 'BEGIN\n    IF "My Data".row[1].n = -3 THEN "My Data".row[0].n := 1; END_IF;\n'
+    )
+    body = body.replace('"My Data"."is on" AND', '"My Data".part.n = 7 AND "My Data".w = 16#F0 AND')
+    source, unit = judged(saved(tmp_path, main_scl=body, data_db=more.replace("count := 7;", given)))
+    shown = Machine(source, unit).scan({"Start_Button": False, "part": {"N": 7}, "w": 0xF0}, 10)
+    assert [one["N"] for one in shown["row"]] == [1, -3, 0]
+    assert unit.variables["IS_ON"].initial is True and unit.variables["COUNT"].initial == 5
+    assert source.units and unit.variables["PART"].initial == (("N", 7),)
+
+
 STRUCTURE = DATA.replace("   VAR\n", "   STRUCT\n").replace("END_VAR", "END_STRUCT;")
 
 
@@ -157,11 +171,15 @@ REFUSED = {
     ),
     "a first value of an instance": (
         {"instance_db": INSTANCE.replace("BEGIN\n", "BEGIN\n   go := TRUE;\n")},
-        "data block Steps_DB: this first value is not read here: go := TRUE",
+        "this first value is not read here: it is of",
     ),
-    "a first value of a member": (
-        {"data_db": DATA.replace("count := 7", "part.n := 7")},
-        "this first value is not read here: part.n := 7",
+    "a first value of nothing": (
+        {"data_db": DATA.replace("count := 7", "part.m := 7")},
+        "data.db:14: this first value is not read here: it is of typ_Count",
+    ),
+    "a first value of another type": (
+        {"data_db": DATA.replace("count := 7", "count := 70_000")},
+        "data.db:14: ",
     ),
     "a client that writes": ({"data_db": DATA.replace("FALSE", "TRUE", 1)}, "lets a client write the data"),
     "no data block": ({"data_db": ""}, "My_Data is not declared"),
@@ -237,3 +255,63 @@ def test_values_of_updates_keep_their_brackets(tmp_path: Path) -> None:
     body = FB.replace('"My Data".count -= Int#2', '"My Data".count -= 3 - 1')
     source, unit = judged(saved(tmp_path, steps_scl=body))
     assert Machine(source, unit).scan({"Start_Button": True}, 10)["count"] == 5
+
+
+LENDS = """FUNCTION "Step" : Void
+   VAR_INPUT
+      by : Int;
+   END_VAR
+   VAR_IN_OUT
+      part : "typ Count";
+      list : Array[0..2] of Int;
+   END_VAR
+BEGIN
+    #part.n += #by;
+    #list[1] := #part.n;
+END_FUNCTION
+FUNCTION_BLOCK "Lends"
+   VAR_INPUT
+      by, which : Int;
+   END_VAR
+   VAR_OUTPUT
+      n, second : Int;
+   END_VAR
+   VAR
+      parts : Array[0..1] of "typ Count";
+      list : Array[0..2] of Int;
+      pair : Struct
+         n : Int;
+         part : "typ Count";
+      END_STRUCT;
+   END_VAR
+BEGIN
+    IF #which < 0 OR #which > 1 THEN RETURN; END_IF;
+    "Step"(by := #by, part := #parts[#which], list := #list);
+    #n := #parts[0].n;
+    #second := #list[1];
+END_FUNCTION_BLOCK
+"""
+
+
+def lends(folder: Path, text: str = LENDS) -> tuple[Source, Unit]:
+    """A block that lends a structure and an array to a FUNCTION."""
+    (folder / "b.scl").write_text(TYPE + text, "utf-8")
+    source = read_sources([folder / "b.scl"])
+    unit = source.units["LENDS"]
+    check(source, unit)
+    return source, unit
+
+
+def test_a_function_writes_the_structure_that_it_is_lent(tmp_path: Path) -> None:
+    source, unit = lends(tmp_path)
+    machine = Machine(source, unit)
+    shown = [machine.scan({"by": by, "which": which}, 10) for by, which in ((3, 0), (4, 1), (1, 0))]
+    assert [(scan["n"], scan["second"]) for scan in shown] == [(3, 3), (3, 4), (4, 4)]
+    assert all(difference_of_translator(source, unit, seed, 30) == "" for seed in range(3))
+
+
+def test_a_variable_that_goes_in_and_comes_out_is_refused(tmp_path: Path) -> None:
+    lends(tmp_path, LENDS.replace("by := #by, part := #parts[#which]", "by := #pair.n, part := #pair.part"))
+    for one in ("by := #list[0]", "by := #parts[0].n"):
+        with pytest.raises(Unjudged, match="goes into Step and comes out of it: S7 may take"):
+            lends(tmp_path, LENDS.replace("by := #by, part", f"{one}, part"))

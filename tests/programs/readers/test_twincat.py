@@ -198,3 +198,38 @@ def test_a_folder_without_a_source_is_refused(tmp_path: Path) -> None:
         (tmp_path / f"{name}.plcproj").write_text(PROJECT.format(""), "utf-8")
     with pytest.raises(Unjudged, match="2 projects in it; name one"):
         read_sources([tmp_path])
+
+
+BY_NAME = {
+    "a structure that extends": (
+        "TYPE s EXTENDS g :\nSTRUCT a : BOOL; END_STRUCT END_TYPE\nFUNCTION_BLOCK f",
+        "",
+        "inheritance",
+    ),
+    "a block that extends another": (
+        "FUNCTION_BLOCK f EXTENDS g",
+        "VAR_INPUT a : BOOL; END_VAR",
+        "inheritance",
+    ),
+    "a block that implements": (
+        "FUNCTION_BLOCK f IMPLEMENTS g",
+        "VAR_INPUT a : BOOL; END_VAR",
+        "inheritance",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BY_NAME)
+def test_what_is_object_oriented_is_refused_by_name(name: str, tmp_path: Path) -> None:
+    head, declared, cause = BY_NAME[name]
+    path = tmp_path / "f.st"
+    path.write_text(f"{head}\n{declared}\nEND_FUNCTION_BLOCK\n", "utf-8")
+    with pytest.raises(Unjudged, match=cause):
+        read_sources([path])
+
+
+def test_an_attribute_for_naming_rules_changes_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "f.st"
+    declared = "VAR_INPUT\n{attribute 'naming' := 'omit'}\na : BOOL;\nEND_VAR\n"
+    path.write_text(f"FUNCTION_BLOCK f\n{declared}END_FUNCTION_BLOCK\n", "utf-8")
+    assert set(read_sources([path]).units["F"].variables) == {"A"}

@@ -1,6 +1,6 @@
 """Searches for proofs of the demands on a reference, and keeps them.
 
-    python -m programs.commands.keep_proofs [--seconds S] [--places NAME,NAME] TARGET ...
+    python -m modeproof.lane.keep_proofs [--seconds S] [--places NAME,NAME] TARGET ...
 
 In each profile of the target; what was kept and still is a proof stays. Where a demand is about the course
 of a procedure, --places names the memory that says where the procedure is (before.control,course), so that
@@ -14,12 +14,9 @@ import argparse
 import sys
 
 from modeproof.ground.places import root
+from modeproof.ground.solvers import needing_solvers
 from modeproof.registers.demands import load_demand_rows
 from modeproof.report.demanded import subjects
-from programs.certificates import kept_proofs
-from programs.certificates.kept_proofs import Kept
-from programs.commands.reference_demands import judgement_of, proofs_of
-from programs.semantics.reference import targets
 
 SECONDS = 120.0
 """CPU seconds for one demand."""
@@ -27,11 +24,13 @@ SECONDS = 120.0
 
 def main(arguments: list[str] | None = None) -> int:
     """Carry out the command."""
-    parser = argparse.ArgumentParser(prog="python -m programs.commands.keep_proofs", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m modeproof.lane.keep_proofs", description=__doc__)
     parser.add_argument("targets", nargs="*", metavar="TARGET", help="all if none is named")
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of CPU time for one demand")
     parser.add_argument("--places", default="", metavar="NAMES", help="of memory, by which to split")
     args = parser.parse_args(arguments)
+    with needing_solvers():
+        from programs.semantics.reference import targets
     places = [name for name in args.places.split(",") if name]
     missing = 0
     for target in args.targets or sorted(targets()):
@@ -47,6 +46,9 @@ def keep(
     document: str, target: str, profile: str, seconds: float, left_out: list[str], places: list[str]
 ) -> int:
     """Search, and keep what was found; how many demands are not proved."""
+    with needing_solvers():
+        from programs.certificates import kept_proofs
+        from programs.commands.reference_demands import judgement_of, proofs_of
 
     def tell(text: str) -> None:
         print(f"{target} {profile}: {text}", file=sys.stderr, flush=True)
@@ -56,7 +58,7 @@ def keep(
     found = judgement.all()
     proofs = {one.asked.id: proof for one, proof in proofs_of(judgement, found)}
     path = kept_proofs.place_of(root(), document, target, profile)
-    kept_proofs.write(path, Kept(proofs, judgement.places))
+    kept_proofs.write(path, kept_proofs.Kept(proofs, judgement.places))
     for one in found:
         print(f"{target} {profile}: {one.asked.id}: {one.word}, {one.how}", flush=True)
     return sum(one.word != "PROVED" for one in found)
