@@ -7,13 +7,13 @@ is not declared: it follows from the constants of its cfg.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof.registers.load import load_interface
 from modeproof.registers.made import read_cfg
-from modeproof.registers.rows import Device, Document, Finding, Interface, Problem, Signal
+from modeproof.registers.rows import Device, Document, Finding, Interface, Problem, Property, Signal
 from modeproof.registers.runs import Run
 
 LETTER, CAUTIOUS = "letter", "cautious"
@@ -143,7 +143,22 @@ def _properties(document: Document) -> Iterator[Problem]:
                 yield Problem(
                     document.source("properties"), prop.id, f"no run checks it in the profile {profile}"
                 )
+        if prop.profiles == (CAUTIOUS,) and not _falls(document, prop, of):
+            text = "is of the profile cautious alone, and no counterexample shows that the letter breaks it"
+            yield Problem(document.source("properties"), prop.id, text)
         odd: Sequence[str] = [p for p in PROFILES if p in have and p not in prop.profiles]
         if odd:
             text = f"holds in the profile {odd[0]} too, by a run; leave `profiles` out"
             yield Problem(document.source("properties"), prop.id, text)
+
+
+def _falls(document: Document, prop: Property, of: Mapping[str, str]) -> bool:
+    """Whether a counterexample of what was decided, and not of the profile cautious, breaks a property, or is
+    evidence of a finding that the property names.
+    """
+    shown = {id for one in document.findings if one.id in prop.findings for id in one.evidence}
+    return any(
+        run.property == prop.tla or run.id in shown
+        for run in document.runs
+        if run.kind == "NEG" and not run.readings and of[run.id] != CAUTIOUS
+    )

@@ -170,9 +170,6 @@ Matches_Figure7(i) == i.MW07 = Row5
 SwitchMode_Figure7(i) == Switchover(i, ModeOf(SW, i.MW07), "Settle")
 \* EKS-7-5, E-01: in a chain whose rows exclude one another, nothing confirms MSO 2
 Matches_Figure7Exclusive(i) == i.MW07 = SW[fplcSelection] /\ fplcSelection # 2
-\* EKS-7-2, EKS-7-4, EKS-7-6, EKS-7-8, EKS-7-10, E-13: a chain that goes on after a row that matched, with the
-\* words of Table 2
-Matches_Figure7GoesOn(i) == i.MW07 = SW[fplcSelection] \/ \E m \in MSO : i.MW07 = SW[m] /\ fplcSelection = m
 
 \* EKS-2-28, E-16: step 28 compares MW07 with MW03 as it stands then
 LOCAL LivePair(i) == ModeOf(SW, i.MW07) # None /\ ModeOf(SW, i.MW07) = ModeOf(SE, i.MW03)

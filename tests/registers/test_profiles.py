@@ -107,6 +107,15 @@ def test_each_planted_fault_is_found(two: Any, file: str, old: str, new: str, ex
     assert any(expected in line for line in found), found
 
 
+def test_what_the_letter_breaks_has_a_counterexample(two: Any) -> None:
+    old = 'antecedent = "open_seen"'
+    two.edit(SPEC + "properties.toml", old, f'{old}\nprofiles = ["cautious"]')
+    unshown = "OpenIsUnlocked: is of the profile cautious alone, and no counterexample shows"
+    assert not any(unshown in line for line in two.problems())
+    two.write(f"{SPEC}models/NEG_Latch.cfg", CFG.format("short"))
+    assert any(unshown in line for line in two.problems()), two.problems()
+
+
 def test_a_run_with_a_reading_speaks_for_no_profile(two: Any) -> None:
     two.write(SPEC + "LatchAsPrinted.tla", SLOW)
     row = 'id = "MC_Latch_cautious"\nmodule = "Latch"\ncfg = "models/MC_Latch_cautious.cfg"'
