@@ -40,7 +40,7 @@ def test_each_target_is_proved_in_each_of_its_profiles() -> None:
     assert ("sf_edm", "cautious") in named and ("plc", "letter") in named and ("plc", "cautious") not in named
 
 
-def test_what_is_proved_in_no_lane_is_named_one_by_one(tmp_path: Path) -> None:
+def test_what_no_lane_proves_is_named_one_by_one(tmp_path: Path) -> None:
     unproved = load_demand_rows(root(), "mode_selection").unproved
     rows = load_demand_rows(root(), "mode_selection").of
     assert {*unproved} == {"fplc", "hmi"}
