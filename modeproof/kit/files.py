@@ -83,7 +83,7 @@ def _replace(part: str, path: Path) -> None:
 
 
 def can_be_written(path: Path) -> None:
-    """Raise Unjudged where a file surely cannot be written later, before anybody waits for what it will hold."""
+    """Raise Unjudged where a file surely cannot be written later, before anybody waits for it."""
     if path == STDOUT:
         return
     error = 0
