@@ -26,6 +26,8 @@ from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
 ANSWER_SECONDS = 30.0
+ELSEWHERE = "every graph is compared in the lane full, and none is made in this one"
+"""Said of a document that has nothing to compare in the lane exhaustive; that is no trouble."""
 
 
 def compare_reference(
@@ -35,7 +37,7 @@ def compare_reference(
     lane; by document, why there is none.
 
     A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED, and so is
-    a document that has no graph in the lane.
+    a document that has no graph in the lane, unless that is the lane exhaustive and its graphs are in full.
     """
     work, troubles, kept = comparisons(place, names, lane, keep)
     keep.say(progress)
@@ -55,7 +57,11 @@ def comparisons(
     found: list[Record] = []
     for document in names:
         try:
-            runs = [run for run in load_runs(place, document) if run.graph is not None and lane in run.lanes]
+            every = [run for run in load_runs(place, document) if run.graph is not None]
+            runs = [run for run in every if lane in run.lanes]
+            if not runs and lane == "exhaustive" and every and all("full" in run.lanes for run in every):
+                troubles[document] = ELSEWHERE
+                continue
             if not runs:
                 raise Unjudged(f"the lane {lane} has no OPEN run, so nothing is compared")
             targets = _targets(place, document, lane)

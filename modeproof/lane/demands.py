@@ -14,7 +14,7 @@ from modeproof.ground.meaning import reached
 from modeproof.ground.processes import Task
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane.keep import Keep
-from modeproof.registers.demands import FILE
+from modeproof.registers.demands import FILE, load_demand_rows
 from modeproof.report.demanded import KIND, id_of, subjects
 
 CODE = ("modeproof.lane.demands", "programs.commands.reference_demands")
@@ -61,7 +61,8 @@ def prove_demands(place: Path, document: str, target: str, profile: str) -> Reco
     rows: list[dict[str, str]] = []
     answers: dict[str, Any] = {}
     try:
-        found = shown(judgement_of(target, profile, SECONDS))
+        left_out = load_demand_rows(place, document).unproved.get(target, {})
+        found = shown(judgement_of(target, profile, SECONDS, left_out=[*left_out]))
         rows = [{"id": one.asked.id, "word": one.word, "how": one.how} for one in found.found]
         answers = {
             "files": found.answers.files,

@@ -18,7 +18,7 @@ from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, chosen_documents, documents, machines, root
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
-from modeproof.lane.conformance import compare_reference, comparisons, say
+from modeproof.lane.conformance import ELSEWHERE, compare_reference, comparisons, say
 from modeproof.lane.demands import proofs_of_demands
 from modeproof.lane.keep import NOTHING, Keep, kept_line
 from modeproof.lane.machine_command import ID as MACHINE
@@ -207,6 +207,9 @@ def verify(
             if document not in done:
                 troubles.setdefault(document, "nothing was done")
         for document, why in troubles.items():
+            if why == ELSEWHERE:
+                progress.say(f"{document}: {why}")
+                continue
             bad.append(f"{document}, {title}: UNJUDGED: {why}")
             status = 2
         everything += made

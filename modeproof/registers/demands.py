@@ -64,13 +64,13 @@ class Undemanded(Entry, frozen=True, kw_only=True):
 @dataclass(frozen=True)
 class Demands:
     """The register: the demands on each device, the inputs of each that the document calls constant, with the
-    clauses that do, why those on a device are not proved of the reference in a lane, and the clauses that
-    demand nothing.
+    clauses that do, by device and demand why it is not proved of the reference in a lane, and the clauses
+    that demand nothing.
     """
 
     of: dict[str, tuple[Demand, ...]] = field(default_factory=dict)
     constant: dict[str, dict[str, Clauses]] = field(default_factory=dict)
-    unproved: dict[str, str] = field(default_factory=dict)
+    unproved: dict[str, dict[str, str]] = field(default_factory=dict)
     undemanded: Undemanded = field(default_factory=Undemanded)
 
     @property
@@ -87,13 +87,15 @@ def load_demand_rows(root: Path, name: str) -> Demands:
         return Demands()
     data = read_toml(root, path)
     only_keys(source, data, ("device", "undemanded"))
-    found, constant, unproved, seen = {}, {}, dict[str, str](), set[str]()
+    found, constant, unproved, seen = {}, {}, dict[str, dict[str, str]](), set[str]()
     for device, table in data.get("device", {}).items():
         rows: dict[str, Any] = table.get("demand", {}) if isinstance(table, dict) else {}
         steady = table.get("constant", {}) if isinstance(table, dict) else {}
         constant[device] = typed(dict[str, Clauses], steady, f"{source}: {device}: constant")
         if isinstance(table, dict) and "unproved" in table:
-            unproved[device] = typed(Text, table["unproved"], f"{source}: {device}: unproved")
+            unproved[device] = typed(dict[str, Text], table["unproved"], f"{source}: {device}: unproved")
+            if odd := sorted(unproved[device].keys() - rows.keys()):
+                raise Unjudged(f"{source}: {device}: unproved: no demand {odd[0]!r}")
         found[device] = tuple(typed(Demand, {**row, "id": id}, f"{source}: {id}") for id, row in rows.items())
         for row in found[device]:
             if row.id in seen:

@@ -105,8 +105,8 @@ def demands_pages(document: Document) -> dict[str, str]:
     ]
     for device, rows in demands.of.items():
         lines += ["", f"## `{device}`", ""]
-        if why := demands.unproved.get(device):
-            lines += [f"Proved in no lane: {why}.", ""]
+        for id, why in demands.unproved.get(device, {}).items():
+            lines += [f"{id} is proved in no lane: {why}.", ""]
         for name, cited in demands.constant[device].items():
             lines.append(
                 f"- `{name}` is constant during a run ({', '.join(cited)}); `--flips` lets it change."

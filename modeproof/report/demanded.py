@@ -16,13 +16,14 @@ SOLVERS = ("z3", "cvc5")
 
 def subjects(place: Path, document: str) -> Iterator[tuple[str, str]]:
     """Each published target of a document of which something is demanded, with each of its profiles; without
-    those of which the register says why not.
+    those of which the register says of every demand why it is not proved.
     """
     if not (place / "spec" / document / f"{FILE}.toml").is_file():
         return
     demands = load_demand_rows(place, document)
     for target, device in load_interface(place, document).devices.items():
-        if device.published and demands.of.get(target) and target not in demands.unproved:
+        ids = {row.id for row in demands.of.get(target, ())}
+        if device.published and ids - demands.unproved.get(target, {}).keys():
             for profile in PROFILES if profiles_of(device) else (LETTER,):
                 yield target, profile
 
@@ -34,7 +35,9 @@ def id_of(target: str, profile: str) -> str:
 
 def doubt_on_demands(place: Path, document: str, result: Mapping[str, Any]) -> str:
     """What speaks against evidence that says that all demands of a target are proved; empty: nothing."""
-    known = {row.id for row in load_demand_rows(place, document).of.get(result["device"], ())}
+    demands = load_demand_rows(place, document)
+    known = {row.id for row in demands.of.get(result["device"], ())}
+    known -= demands.unproved.get(result["device"], {}).keys()
     words = {row["id"]: row["word"] for row in result["demands"]}
     if lost := sorted(known - words.keys()):
         return f"it says nothing of {lost[0]}"

@@ -2,7 +2,7 @@
 
     [device.lamp]                       by device
     constant = { press = ["TOY-2"] }    inputs that the document calls constant, with the clauses that do
-    unproved = "why"                    they are not proved of the reference in a lane
+    unproved = { ID = "why" }           these are not proved of the reference in a lane
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
     [device.lamp.rules]                 a value, { recent = .. }, or { memory = .., starts = .. }

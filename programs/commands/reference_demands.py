@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.ground.places import root
-from programs.certificates import inductive
+from programs.certificates import inductive, kept_proofs
 from programs.certificates.inductive import Claim
 from programs.certificates.recheck import Answers, asked
 from programs.demands.assumptions import Assumed
@@ -16,6 +16,7 @@ from programs.demands.reference_subject import Implementation
 from programs.demands.register import demands_of
 from programs.demands.verdicts import Found, Judgement
 from programs.demands.watched import Beside
+from programs.invariants.induction import Proof
 from programs.semantics.reference import reference
 
 
@@ -41,26 +42,41 @@ def judgement_of(
     seconds: float,
     tell: Callable[[str], None] = lambda text: None,
     latency: int = LATENCY,
+    left_out: Collection[str] = (),
 ) -> Judgement:
-    """The reference implementation in a profile, with what is demanded of it. Raises Unjudged."""
+    """The reference implementation in a profile, with what is demanded of it, and the proofs that were kept.
+
+    left_out: demands that are not asked. Raises Unjudged.
+    """
     of = reference(target)
     demands = demands_of(of)
     beside = Beside(
         Implementation.in_profile(of, profile), demands, Assumed(of, {}, demands.constant), latency
     )
     beside.check()
-    return Judgement(beside, root() / "vectors" / target, seconds, tell)
+    kept = kept_proofs.read(kept_proofs.place_of(root(), of.document, target, profile), beside.system)
+    vectors = root() / "vectors" / target
+    return Judgement(beside, vectors, seconds, tell, kept=kept.proofs, left_out=left_out, places=kept.places)
 
 
 def shown(judgement: Judgement) -> Shown:
     """Judges all demands, and has z3 and cvc5 check each proof anew. Raises TimeoutError: one cannot be."""
-    found, system = judgement.all(), judgement.beside.system
-    claims = []
+    found = judgement.all()
+    claims = [
+        Claim(one.asked.id, one.asked.text, judgement.plainly_bad(one.asked), proof)
+        for one, proof in proofs_of(judgement, found)
+    ]
+    return Shown(found, asked(Path(), list(inductive.obligations(judgement.beside.system, claims))))
+
+
+def proofs_of(judgement: Judgement, found: Sequence[Found]) -> Iterator[tuple[Found, Proof]]:
+    """Each demand that is proved, with its proof as it is kept. Raises TimeoutError: one cannot be."""
     for one in found:
-        if one.proof is not None:
+        if one.proof is not None and one.proof is judgement.kept.get(one.asked.id):
+            yield one, one.proof
+        elif one.proof is not None:
             bad = judgement.plainly_bad(one.asked)
-            claims.append(Claim(one.asked.id, one.asked.text, bad, inductive.kept(system, bad, one.proof)))
-    return Shown(found, asked(Path(), list(inductive.obligations(system, claims))))
+            yield one, inductive.kept(judgement.beside.system, bad, one.proof)
 
 
 def lines_of(target: str, profile: str, found: Shown) -> Sequence[str]:

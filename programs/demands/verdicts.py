@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -19,7 +19,8 @@ from programs.demands.watched import Beside, Broken
 from programs.equality.replay import MOST_SCANS, SUITES, Run
 from programs.equality.shorten import fewer
 from programs.invariants.houdini import Houdini
-from programs.invariants.induction import Proof, System, induction, shortest, spacer
+from programs.invariants.induction import Proof, System, holds_up, induction, shortest, spacer
+from programs.invariants.located import Located
 from programs.invariants.word_numbers import spacer_over_numbers
 from programs.semantics.terms import compared_with
 
@@ -88,11 +89,19 @@ class Judgement:
     wrap: bool = False
     at_once: Callable[[Broken, Asked], None] = lambda broken, asked: None
     """Is told of a break when it is found, before fewer scans are looked for."""
+    kept: Mapping[str, Proof] = field(default_factory=dict)
+    """Proofs over the whole system that were found before, by the ids of demands: asked again at first."""
+    left_out: Collection[str] = ()
+    """Demands that are not asked."""
+    brief: bool = False
+    """Without a search for invariants, which may take long where another question settles it."""
+    places: Sequence[str] = ()
+    """Names of memory by whose values an invariant may be split, if nothing simpler is found."""
 
     @cached_property
     def every(self) -> list[Asked]:
         """What is asked, that on types first where there is something to it."""
-        found = [Asked.of(row) for row in self.beside.rows]
+        found = [Asked.of(row) for row in self.beside.rows if row.id not in self.left_out]
         if z3.is_true(z3.simplify(self.beside.system.inside)):
             return found
         says = (
@@ -102,12 +111,17 @@ class Judgement:
 
     def all(self) -> list[Found]:
         """The verdict on each."""
+        still = {asked.id: one for asked in self.every if (one := self._still(asked)) is not None}
+        if len(still) == len(self.every):
+            return list(still.values())
+        by_id = {asked.id: asked for asked in self.every}
         for id, broken in self.replays.broken.items():
-            self.at_once(broken, next(one for one in self.every if one.id == id))
+            if id in by_id:
+                self.at_once(broken, by_id[id])
         found: list[Found] = []
         for asked in self.every:
             self.tell(asked.id)
-            found.append(self._judge(asked))
+            found.append(still.get(asked.id) or self._judge(asked))
         types = next((one for one in found if one.asked.id == TYPES and one.word != "PROVED"), None)
         if types is not None:
             why = "the program may leave its types"
@@ -119,7 +133,7 @@ class Judgement:
 
     def longer(self, seconds: float, found: Sequence[Found]) -> list[Found]:
         """What is still not known, asked again with more time."""
-        self.seconds = seconds
+        self.seconds, self.brief = seconds, False
         self.__dict__.pop("lemmas", None)
         if all(one.word != "UNKNOWN" or one.asked.id != TYPES for one in found):
             return [self._judge(one.asked) if one.word == "UNKNOWN" else one for one in found]
@@ -225,9 +239,22 @@ class Judgement:
 
     # ------------------------------------------------------------ one demand
 
+    def _still(self, asked: Asked) -> Found | None:
+        """PROVED by the proof that was kept, if that is one now."""
+        proof = self.kept.get(asked.id)
+        if proof is None:
+            return None
+        self.tell(f"{asked.id}: as before")
+        try:
+            fits = holds_up(self.beside.system, self.plainly_bad(asked), proof)
+        except TimeoutError:
+            return None
+        return Found(asked, "PROVED", proof.by, proof=proof) if fits else None
+
     def one(self, id: str) -> Found:
         """The verdict on one demand."""
-        return self._judge(next(asked for asked in self.every if asked.id == id))
+        asked = next(asked for asked in self.every if asked.id == id)
+        return self._still(asked) or self._judge(asked)
 
     def _judge(self, asked: Asked) -> Found:
         """Cheap questions first: few scans at once, few scans from power-up, Spacer, invariants."""
@@ -247,6 +274,11 @@ class Judgement:
                 return self._replayed(asked, self.beside.wires.run_of(way))
             proof = spacer_over_numbers(self.system, bad, [], seconds / 12)
             proof = proof or spacer(self.system, bad, [], seconds / 4)
+        if proof is None and self.brief:
+            how = f"nothing breaks it within {looked} scans; invariants were not looked for"
+            return Found(asked, "UNKNOWN", how, scans=looked)
+        if proof is None and self.places:
+            proof = self._by_places(bad, time.process_time() + seconds)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
@@ -258,6 +290,17 @@ class Judgement:
         if way is not None:
             return self._replayed(asked, self.beside.wires.run_of(way))
         return Found(asked, "UNKNOWN", f"no proof; nothing breaks it within {looked} scans", scans=looked)
+
+    def _by_places(self, bad: z3.BoolRef, until: float) -> Proof | None:
+        """A proof by an invariant that is split by the places; None: it has none in that time."""
+        places = [name for name in self.places if name in self.system.cone(bad).state]
+        located = Located(self.system.cone(bad), places, self.tell)
+        try:
+            located.find(until)
+            proof = induction(self.system, bad, located.lemmas(), until + self.seconds)
+        except TimeoutError:
+            return None
+        return proof and replace(proof, by=f"an invariant by {', '.join(places)}")
 
     def _replayed(self, asked: Asked, run: Run) -> Found:
         """The scans that a solver found, after they were run with plain values."""

@@ -14,7 +14,7 @@ from typing import Any
 
 import z3
 
-from programs.invariants.induction import LIMIT_MS, System, named
+from programs.invariants.induction import LIMIT_MS, System, limits, named
 from programs.invariants.relations import like
 
 MOST_FACTS = 260
@@ -38,6 +38,7 @@ class Houdini:
     """Ask about each clause alone: many small questions in the place of few large ones."""
     further: Callable[[z3.ModelRef], Iterable[Sequence[bool]]] | None = None
     """The facts in states that follow the one before the scan of an answer."""
+    _made: dict[tuple[bool, tuple[int, ...]], z3.BoolRef] = field(default_factory=dict)
 
     def lemmas(self) -> list[z3.BoolRef]:
         """What was found."""
@@ -54,6 +55,7 @@ class Houdini:
         """Keep what is inductive. Raises TimeoutError: no answer, or the clock is past `until`."""
         tries = list(_facts(self.system.state, samples, self.limits, self.values))[:MOST_FACTS]
         self.facts = [formula for formula, _ in tries]
+        self._made.clear()
         everywhere = (1 << len(samples)) - 1
         masks = [sum(1 << n for n, sample in enumerate(samples) if true(sample)) for _, true in tries]
         literals = [(n, mask) for n, mask in enumerate(masks, 1)]
@@ -75,7 +77,7 @@ class Houdini:
 
     def _solver(self) -> z3.Solver:
         found = z3.Solver()
-        found.set("timeout", LIMIT_MS)
+        found.set(**limits(LIMIT_MS))
         return found
 
     def _drop_at_start(self) -> None:
@@ -100,6 +102,14 @@ class Houdini:
             base.pop()
             if not changed:
                 return
+
+    def _denied(self, facts: Sequence[z3.BoolRef], clause: tuple[int, ...]) -> z3.BoolRef:
+        """That a clause is false; made once for the facts at hand and once for those after a scan."""
+        key = facts is self.facts, clause
+        if key not in self._made:
+            parts = [z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in dict.fromkeys(clause)]
+            self._made[key] = parts[0] if len(parts) == 1 else z3.And(parts)
+        return self._made[key]
 
     def _keep(self, value: Sequence[bool]) -> None:
         """The clauses that are true where the facts are so."""
@@ -128,9 +138,7 @@ class Houdini:
     ) -> bool:
         """Ask about clauses, and drop all that are false in the answer; whether there was one."""
         self.rounds += 1
-        parts = [
-            z3.And([z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in clause]) for clause in asked
-        ]
+        parts = [self._denied(facts, clause) for clause in asked]
         answer = solver.check(z3.Or(parts))
         if answer == z3.unknown:
             raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")

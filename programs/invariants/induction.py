@@ -18,7 +18,11 @@ from programs.invariants.relations import plain
 from programs.semantics.terms import names_in
 
 LIMIT_MS = 20_000
-"""For one question."""
+"""For one question, on a machine that does nothing else."""
+UNITS_A_SECOND = 5_000_000
+"""What z3 counts of its own work; by this a limit does not depend on what else the machine does."""
+PATIENCE = 10
+"""So many times a limit may a question take by the clock, whatever z3 counts."""
 DEEPEST = 3
 """Scans of one induction step."""
 
@@ -44,18 +48,17 @@ class System:
     def cone(self, *terms: Any) -> System:
         """The system without the values on which neither these terms nor its premises depend."""
         known: set[str] = set()
-        waiting = [*terms, self.assumed, self.inside]
+        waiting = [*(names_in([term]) for term in terms), names_in([self.assumed, self.inside])]
         by_name = {str(term): path for path, term in self.state.items()}
         while waiting:
-            for name in names_in([waiting.pop()]):
+            for name in waiting.pop():
                 path = by_name.get(name)
                 if path is not None and path not in known:
                     known.add(path)
-                    waiting.append(self.after[path])
+                    waiting.append(self._names(path))
         kept = {path: term for path, term in self.state.items() if path in known}
-        parts = conjuncts(self.within)
-        names = {str(term) for term in kept.values()}
-        within = z3.And([z3.BoolVal(True), *(part for part in parts if names_in([part]) <= names)])
+        own = {str(term) for term in kept.values()}
+        within = z3.And([z3.BoolVal(True), *(part for part, names in self._ranges if names <= own)])
         return System(
             kept,
             self.inputs,
@@ -65,6 +68,20 @@ class System:
             self.inside,
             within,
         )
+
+    def _names(self, path: str) -> set[str]:
+        """The symbols on which a value after a scan depends."""
+        if path not in self._read:
+            self._read[path] = names_in([self.after[path]])
+        return self._read[path]
+
+    @cached_property
+    def _read(self) -> dict[str, set[str]]:
+        return {}
+
+    @cached_property
+    def _ranges(self) -> list[tuple[z3.BoolRef, set[str]]]:
+        return [(part, names_in([part])) for part in conjuncts(self.within)]
 
     @cached_property
     def constants(self) -> list[tuple[Any, Any]]:
@@ -131,7 +148,7 @@ class Unrolled:
     def __init__(self, system: System, lemmas: Sequence[z3.BoolRef], from_start: bool) -> None:
         self.system, self.lemmas = system, lemmas
         self.solver = z3.Solver()
-        self.solver.set("timeout", LIMIT_MS)
+        self.solver.set(**limits(LIMIT_MS))
         self.facts: list[z3.BoolRef] = []
         """What the solver was told."""
         self.states: list[dict[str, Any]] = []
@@ -254,7 +271,7 @@ def is_inductive(system: System, lemmas: Sequence[z3.BoolRef]) -> bool:
         (z3.And(together, system.assumed, system.inside), z3.substitute(together, *where)),
     ):
         solver = z3.Solver()
-        solver.set("timeout", 3 * LIMIT_MS)
+        solver.set(**limits(3 * LIMIT_MS))
         solver.add(known, z3.Not(then))
         answer = solver.check()
         if answer == z3.unknown:
@@ -282,7 +299,7 @@ def spacer_invariant(
 ) -> z3.BoolRef | None:
     """An invariant that excludes `bad`, as z3's Spacer says; None: it says nothing in that time."""
     fixed = z3.Fixedpoint()
-    fixed.set(engine="spacer", timeout=int(seconds * 1000))
+    fixed.set(engine="spacer", **limits(seconds * 1000))
     order = list(small.state)
     known = z3.Function("known", *(small.state[path].sort() for path in order), z3.BoolSort())
     wrong = z3.Function("wrong", z3.BoolSort())
@@ -322,6 +339,13 @@ def _interpretation(answer: Any, known: Any, terms: Sequence[Any]) -> z3.BoolRef
 
 
 # ---------------------------------------------------------------- small
+
+
+def limits(ms: float) -> dict[str, int]:
+    """A limit of z3 that is the same on a busy machine, in ms of one that is not."""
+    most = (1 << 32) - 1
+    units, clock = int(ms / 1000 * UNITS_A_SECOND), int(PATIENCE * ms)
+    return {"rlimit": max(1, min(units, most)), "timeout": max(1, min(clock, most))}
 
 
 def named(term: Any, number: object) -> Any:

@@ -41,6 +41,7 @@ CLOSED = {
         (".zap15", ".zap16", ".zap17", ".zap18", ".zap19", ".ap15", ".ap16", ".ap17", ".ap18", ".ap19"),
         "a TIA project is no source; let TIA generate the source of the block (.scl)",
     ),
+    ".xlsx": "export the table of PLC tags as .xml",
     ".s7dcl": "this form of TIA is not read; let TIA generate the source of the block (.scl)",
 }
 """Files that are refused by name, each with what to do."""

@@ -14,7 +14,7 @@ from modeproof.graph.export import export_file
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.progress import Progress
-from modeproof.lane import conformance
+from modeproof.lane import conformance, verify
 from modeproof.suites import builtin_comparison as command
 from tests.toy_tree import toy_tree
 
@@ -69,8 +69,21 @@ def export(root: Path) -> Path:
 
 
 def test_a_lane_without_a_graph_is_no_pass(toy: Path) -> None:
-    with pytest.raises(Unjudged, match="the lane exhaustive has no OPEN run, so nothing is compared"):
-        compare(toy, "exhaustive")
+    runs = toy / "spec/toy/runs.toml"
+    runs.write_text(runs.read_text().replace('lanes = ["smoke", "full"]', 'lanes = ["smoke"]'))
+    for lane in ("full", "exhaustive"):
+        with pytest.raises(Unjudged, match=f"the lane {lane} has no OPEN run, so nothing is compared"):
+            compare(toy, lane)
+
+
+def test_graphs_of_the_full_lane_are_compared_there_alone(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(verify, "property_rows", lambda place, document: [])
+    stage = ("conformance", conformance.compare_reference)
+    assert verify.verify(toy, ["toy"], "exhaustive", [stage], Progress(quiet=True)) == (0, [])
+    assert f"toy: {conformance.ELSEWHERE}" in capsys.readouterr().out
+    assert verify.verify(toy, ["toy"], "full", [stage], Progress(quiet=True))[0] == 2
 
 
 def test_a_missing_graph_is_unjudged(toy: Path) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents, root
 from modeproof.lane import demands as lane
 from modeproof.lane.keep import NOTHING
@@ -33,11 +36,26 @@ def result() -> dict[str, Any]:
 
 def test_each_target_is_proved_in_each_of_its_profiles() -> None:
     named = [one for document in documents(root()) for one in subjects(root(), document)]
-    left = {
-        target for document in documents(root()) for target in load_demand_rows(root(), document).unproved
-    }
-    assert {target for target, _ in named} == set(targets()) - left and "plc" not in left
+    assert {target for target, _ in named} == set(targets())
     assert ("sf_edm", "cautious") in named and ("plc", "letter") in named and ("plc", "cautious") not in named
+
+
+def test_what_no_lane_proves_is_named_one_by_one(tmp_path: Path) -> None:
+    unproved = load_demand_rows(root(), "mode_selection").unproved
+    rows = load_demand_rows(root(), "mode_selection").of
+    assert {*unproved} == {"fplc", "hmi"}
+    assert all(0 < len(few) < len(rows[target]) / 2 for target, few in unproved.items())
+    shutil.copytree(root() / "spec/edm", tmp_path / "spec/edm")
+    path = tmp_path / "spec/edm/demands.toml"
+    head, mark, rest = path.read_text().partition("[device.sf_edm.rules]")
+    path.write_text(f'{head}[device.sf_edm.unproved]\nNoSuchDemand = "it takes long"\n\n{mark}{rest}')
+    with pytest.raises(Unjudged, match="unproved: no demand 'NoSuchDemand'"):
+        load_demand_rows(tmp_path, "edm")
+    found = result()
+    found["demands"] = [row for row in found["demands"] if row["id"] != "NoOutputInError"]
+    path.write_text(f'{head}[device.sf_edm.unproved]\nNoOutputInError = "it takes long"\n\n{mark}{rest}')
+    assert doubt_on_demands(tmp_path, "edm", found) == ""
+    assert "it says nothing of NoOutputInError" in doubt_on_demands(root(), "edm", found)
 
 
 def test_the_full_lane_has_a_task_for_each() -> None:
@@ -83,7 +101,7 @@ def test_the_verdict_is_that_of_the_proofs(
     )()
     shown: Any = type("S", (), {"status": status, "found": (), "answers": answers})()
     monkeypatch.setattr(reference_demands, "shown", lambda judgement: shown)
-    monkeypatch.setattr(reference_demands, "judgement_of", lambda *given: None)
+    monkeypatch.setattr(reference_demands, "judgement_of", lambda *given, **more: None)
     written: list[dict[str, Any]] = []
     monkeypatch.setattr(evidence, "write", lambda place, record: written.append(record))
     record = lane.prove_demands(root(), "edm", "sf_edm", "letter")
