@@ -13,7 +13,7 @@ from typing import Any, Final
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
-from programs.certificates import inductive
+from programs.certificates import inductive, kept_proofs
 from programs.certificates.certificate_folder import (
     VERSION,
     Obligation,
@@ -143,7 +143,10 @@ def of_reference(judgement: Judgement) -> Judgement:
     beside = judgement.beside
     subject = Implementation(beside.subject.reference, beside.subject.fixed)
     own = Beside(subject, beside.demands, beside.assumed, beside.latency)
-    return Judgement(own, judgement.vectors, judgement.seconds, judgement.tell)
+    kept = kept_proofs.of_subject(root(), subject, own.system)
+    return Judgement(
+        own, judgement.vectors, judgement.seconds, judgement.tell, kept=kept.proofs, places=kept.places
+    )
 
 
 # ---------------------------------------------------------------- reading

@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.files import write_text
+from modeproof.registers.profiles import PROFILES
 from programs.certificates.inductive import read_invariants
+from programs.demands.reference_subject import Implementation
 from programs.invariants.induction import DEEPEST, Proof, System
 
 
@@ -48,6 +50,16 @@ def read(path: Path, system: System) -> Kept:
         except (KeyError, TypeError, ValueError):
             continue
     return Kept(found, places)
+
+
+def of_subject(root: Path, subject: Implementation, system: System) -> Kept:
+    """The proofs of the profile that the subject has; none where it has no such profile."""
+    of = subject.reference
+    for profile in PROFILES:
+        chosen = Implementation.in_profile(of, profile).fixed
+        if chosen.items() <= subject.fixed.items():
+            return read(place_of(root, of.document, of.device.name, profile), system)
+    return Kept({})
 
 
 def write(path: Path, kept: Kept) -> None:

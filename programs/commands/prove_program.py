@@ -39,8 +39,8 @@ from programs.equality.replay import Difference, Run, published
 from programs.equality.verdict import Verdict, judge
 from programs.language.tool_differences import assumed
 
-FIRST_S = 10.0
-"""CPU seconds for each demand before equality is asked, which settles many at once."""
+FIRST_S = 4.0
+"""CPU seconds for the plain questions on each demand before equality is asked, which settles many at once."""
 SAME_S = 60.0
 """CPU seconds for the second answer, if it was not asked for."""
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
@@ -78,6 +78,7 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     latency = LATENCY if args.latency is None else args.latency
     first_s = min(args.seconds, FIRST_S)
     judgement = judgement_of(product, assumed, latency, vectors, first_s, tell)
+    judgement.brief = True
     judgement.at_once = lambda broken, asked: print(
         following.at_once(broken, asked.id, asked.clauses), flush=True
     )
@@ -87,7 +88,7 @@ def judge_program(args: argparse.Namespace) -> Outcome:
         if same is not None and same.word == "PROVED":
             tell("what could not be shown of the program is asked of the reference")
             followed = by_equality(followed)
-    if followed.word == "UNKNOWN" and args.seconds > first_s:
+    if followed.word == "UNKNOWN":
         followed = replace(followed, found=judgement.longer(args.seconds, followed.found))
     tell("")
     lines = list(following.text_of(followed, time.process_time() - started))
