@@ -94,7 +94,7 @@ def test_evidence_is_judged_by_its_figures(edit: Edit, said: str) -> None:
 
 @pytest.mark.parametrize(("status", "verdict"), [(0, "PROVED"), (1, "REFUTED"), (2, "UNKNOWN")])
 def test_the_verdict_is_that_of_the_proofs(
-    status: int, verdict: str, monkeypatch: pytest.MonkeyPatch
+    status: int, verdict: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     answers: Any = type(
         "A", (), {"files": 16, "answers": {"z3": {}, "cvc5": {}}, "lines": lambda self: ["no"]}
@@ -103,7 +103,13 @@ def test_the_verdict_is_that_of_the_proofs(
     monkeypatch.setattr(reference_demands, "shown", lambda judgement: shown)
     monkeypatch.setattr(reference_demands, "judgement_of", lambda *given, **more: None)
     written: list[dict[str, Any]] = []
-    monkeypatch.setattr(evidence, "write", lambda place, record: written.append(record))
+    write = evidence.write
+
+    def elsewhere(place: Path, record: dict[str, Any]) -> None:
+        write(tmp_path, record)  # which refuses what is no evidence
+        written.append(record)
+
+    monkeypatch.setattr(evidence, "write", elsewhere)
     record = lane.prove_demands(root(), "edm", "sf_edm", "letter")
     assert written == [record] and record["verdict"] == verdict and record["id"] == id_of("sf_edm", "letter")
     assert record["as_expected"] == (status == 0) and bool(record["reason"]) == bool(status)
