@@ -166,11 +166,12 @@ def _export(folder: Path, module: str, tools: Toolchain, library: Path | None) -
     java = [str(tools.java), "-XX:TieredStopAtLevel=1", "-XX:+UseParallelGC", "-Xss16m"]
     java += start_up_options(tools)
     places = [] if library is None else ["-I", str(library)]
-    command = [*java, "-cp", str(tools.jar), "tla2sany.xml.XMLExporter", "-o", *places, f"{module}.tla"]
+    parser = ["-cp", str(tools.jar), "tla2sany.xml.XMLExporter", "-o", *places, f"{module}.tla"]
     try:
-        with tempfile.TemporaryFile() as output:
+        # SANY unpacks its own modules into the folder, and removes them: two at once must not share one
+        with tempfile.TemporaryFile() as output, tempfile.TemporaryDirectory() as own:
             done = subprocess.run(
-                command,
+                [*java, f"-Djava.io.tmpdir={own}", *parser],
                 cwd=folder,
                 stdin=subprocess.DEVNULL,
                 stdout=output,

@@ -91,7 +91,7 @@ def write_cache(tools: Toolchain, cache: Path = CACHE) -> None:
         tlc = ["tlc2.TLC", "-tool", "-deadlock", "-workers", "2", "-metadir", room, "Training"]
         try:
             done = subprocess.run(
-                [*java, "-cp", str(tools.jar), *tlc],
+                [*java, f"-Djava.io.tmpdir={room}", "-cp", str(tools.jar), *tlc],
                 cwd=room,
                 capture_output=True,
                 timeout=_TIME_LIMIT_S,

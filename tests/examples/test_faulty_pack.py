@@ -13,7 +13,6 @@ import pytest
 from examples.faulty.run import (
     FPLC,
     HEAD,
-    HEAD_PASSED,
     HERE,
     ROOT,
     SUITES,
@@ -29,10 +28,9 @@ from examples.faulty.run import (
     row,
 )
 from modeproof.ground.processes import in_forks
-from modeproof.kit.adapter import Adapter
 from modeproof.kit.diagnosis import unseen
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Verdict
 from modeproof.kit.vectors import Suite
 from tests.any_machine import PATIENCE_S
 from tests.examples.entries import entries, entry
@@ -105,49 +103,6 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize(
-    ("target", "fault"), [one for one in EVERY if one[1].reason], ids=lambda one: getattr(one, "id", one)
-)
-def test_a_fault_said_to_be_invisible_conforms_to_other_suites(
-    target: str, fault: Fault, judged: Callable[[str], Judged]
-) -> None:
-    """By all of `brief` in run.py, which takes too long for each of them here."""
-    pack = judged(target)
-    for name in list(pack.suites)[1:]:
-        assert judge(pack.programs[fault.id], pack.suites[name]).word == "CONFORMS"
-    line = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
-    assert entry(HEAD_PASSED, line) in entries(PACKS[target].page), "run examples/faulty/run.py --render"
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize(
-    ("target", "fault"),
-    [one for one in EVERY if "--codes" in one[1].reason],
-    ids=lambda one: getattr(one, "id", one),
-)
-def test_what_only_our_own_codes_show_is_rejected_with_them(
-    target: str, fault: Fault, judged: Callable[[str], Judged]
-) -> None:
-    pack = judged(target)
-    verdict = run_suite(
-        pack.suites["brief"], lambda: Adapter([str(pack.programs[fault.id])]), plan=Plan(Options(codes=True))
-    )
-    assert verdict.word == "DIFFERS" and verdict.difference is not None
-    assert verdict.reason.startswith(f"case {verdict.difference.case.id}, scan ")
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize("target", PACKS)
-def test_the_program_without_fault_conforms_to_all_its_vectors(
-    target: str, judged: Callable[[str], Judged]
-) -> None:
-    pack = judged(target)
-    chosen = list(pack.suites) if target != FPLC.target else list(pack.suites)[1:]  # test_c_program has brief
-    for name in chosen:
-        assert judge(pack.programs[""], pack.suites[name]).word == "CONFORMS"
-
-
-@pytest.mark.deep
 def test_nine_of_ten_diagnoses_name_what_the_fault_touches(judged: Callable[[str], Judged]) -> None:
     missed, count = [], 0
     for target in PACKS:
@@ -187,10 +142,8 @@ def test_what_a_fault_breaks_is_declared_in_the_registers(program: Program) -> N
 
 @pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
-def test_every_decision_behind_a_vector_is_broken_by_a_fault(
-    target: str, judged: Callable[[str], Judged]
-) -> None:
-    depended = {finding for step in judged(target).suites["brief"].steps for finding in step.findings}
+def test_every_decision_behind_a_vector_is_broken_by_a_fault(target: str) -> None:
+    depended = {finding for step in open_all(PACKS[target])["brief"].steps for finding in step.findings}
     assert len(depended) > (40 if target == FPLC.target else 2)
     faults = [fault for fault in load_faults(PACKS[target].pack) if target != FPLC.target or not fault.reason]
     assert depended - {one for fault in faults for one in fault.breaks} == set()
@@ -198,11 +151,9 @@ def test_every_decision_behind_a_vector_is_broken_by_a_fault(
 
 @pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
-def test_every_step_has_a_fault_that_breaks_what_it_cites(
-    target: str, judged: Callable[[str], Judged]
-) -> None:
+def test_every_step_has_a_fault_that_breaks_what_it_cites(target: str) -> None:
     broken = {one for fault in load_faults(PACKS[target].pack) if not fault.reason for one in fault.breaks}
-    for step in judged(target).suites["brief"].steps:
+    for step in open_all(PACKS[target])["brief"].steps:
         assert broken & {*step.clauses, *step.findings}, step.name
 
 

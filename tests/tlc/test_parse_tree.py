@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+import tempfile
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -43,6 +46,25 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> ParseTree:
     (library / "Base.tla").write_text(BASE)
     (folder / "Top.tla").write_text(TOP.replace(r"\/ Room2(<<d>>)", ""))
     return read_tree(folder, "Top", find_toolchain(), library)
+
+
+def test_each_parser_unpacks_into_a_folder_of_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What one removes is not missed by the other."""
+    run, places = subprocess.run, list[list[str]]()
+
+    def told(command: list[str], **options: Any) -> Any:
+        if "tla2sany.xml.XMLExporter" in command:
+            places.append([one for one in command if one.startswith("-Djava.io.tmpdir=")])
+        return run(command, **options)
+
+    monkeypatch.setattr(subprocess, "run", told)
+    (tmp_path / "Base.tla").write_text(BASE)
+    for _ in range(2):
+        read_tree(tmp_path, "Base", find_toolchain())
+    [one], [other] = places
+    assert one != other and not {one, other} & {f"-Djava.io.tmpdir={tempfile.gettempdir()}"}
 
 
 def test_the_tree_has_all_our_definitions_and_no_standard_ones(tree: ParseTree) -> None:

@@ -22,7 +22,8 @@ def _tables_by_tlc(text: str, folder: Path) -> dict[str, tuple[int, ...]]:
     (folder / "Probe.tla").write_text(probe, encoding="utf-8")
     (folder / "Probe.cfg").write_text("CONSTANT PERMITS <- TotalOrder", encoding="utf-8")
     tools = find_toolchain()
-    command = [str(tools.java), "-XX:+UseSerialGC", "-Xmx256m", "-cp", str(tools.jar), "tlc2.TLC"]
+    own = f"-Djava.io.tmpdir={folder}"  # TLC unpacks its modules there, and removes them
+    command = [str(tools.java), "-XX:+UseSerialGC", "-Xmx256m", own, "-cp", str(tools.jar), "tlc2.TLC"]
     done = subprocess.run(
         [*command, "-workers", "1", "-metadir", str(folder / "states"), "Probe.tla"],
         cwd=folder,
