@@ -50,7 +50,7 @@ def write(place: Path, record: Mapping[str, Any], folder: str = OURS) -> Path:
     Raises Unjudged when the record breaks the schema or cannot be written (no space, no permission); then
     nothing is left behind.
     """
-    _check(record, "evidence to be written")
+    _check(record, f"evidence to be written, {record.get('document')}/{record.get('id')}")
     path = evidence_path(place, record["document"], record["id"], folder)
     text = json.dumps(sealed(record), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     write_whole(path, text.encode("utf-8"))
