@@ -57,7 +57,11 @@ def verdict_on_machine(result: Mapping[str, Any]) -> tuple[str, str]:
     SURVIVED: all are PROVED, and it is not seen that each can fail.
     """
     words = [row["verdict"] for row in result["verdicts"]]
-    bad = [f"{row['id']}: {row['verdict']}: {row['how']}" for row in result["verdicts"] if row["how"]]
+    bad = [
+        f"{row['id']}: {row['verdict']}: {row['how'] or 'no reason is known'}"
+        for row in result["verdicts"]
+        if row["how"] or row["verdict"] != "PROVED"
+    ]
     bad += [f"{row['id']}: it was never reached" for row in result["verdicts"] if _unreached(row)]
     models = [row for row in result.get("models", ()) if not row["as_expected"]]
     bad += [f"run {row['run']}: {row['verdict']}: {row['reason']}" for row in models]

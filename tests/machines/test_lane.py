@@ -164,6 +164,13 @@ def test_a_proof_of_nothing_is_not_as_expected(
     assert verdict_on_machine({"verdicts": [], "problems": []})[0] == "UNJUDGED"
 
 
+def test_what_is_not_proved_always_has_a_reason() -> None:
+    """Evidence without one cannot be written."""
+    row = {"id": "doors", "verdict": "UNKNOWN", "how": "", "reached_in_scans": [1]}
+    found = verdict_on_machine({"verdicts": [row], "problems": []})
+    assert found == ("UNKNOWN", "doors: UNKNOWN: no reason is known")
+
+
 @pytest.mark.deep
 def test_an_edited_verdict_contradicts_its_rows(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_as(monkeypatch, stop_stops="REFUTED")
