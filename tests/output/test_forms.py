@@ -169,9 +169,11 @@ def test_two_results_for_standard_output_are_refused(wrong: Path, capfd: pytest.
 
 def test_a_form_that_cannot_be_written_is_one_line(wrong: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (wrong / "old").write_text("a file", "utf-8")
-    for place in ("no/such/a.sarif", "old/a.sarif", ".", "old/../no/such"):
-        assert main(["prove-program", "edm.st", "--target", "sf_edm", "--sarif", place]) == 2
-        assert capfd.readouterr() == ("", f"modeproof: {Path(place)}: cannot be written: {CAUSES[place]}\n")
+    for place in CAUSES:
+        for option in ("--sarif", "--markdown", "--json", "--junit"):
+            assert main(["prove-program", "edm.st", "--target", "sf_edm", option, place]) == 2
+            said = f"modeproof: {Path(place)}: cannot be written: {CAUSES[place]}\n"
+            assert capfd.readouterr() == ("", said)
 
 
 def test_the_kit_alone_writes_to_standard_output(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
