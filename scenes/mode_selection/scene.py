@@ -76,7 +76,7 @@ class Scene:
     # ------------------------------------------------------------------------------------------ what is done
 
     def do(self, text: str) -> None:
-        """One action: `insert 2`, `remove`, `touch confirm`, `round 8`, `scan eks fplc 3`, `fault loss`.
+        """One action: `insert 2`, `remove`, `touch confirm`, `round 8`, `scan eks fplc 3`, `fault loss`, `settle`.
 
         Raises ValueError for what is no action.
         """
@@ -85,6 +85,8 @@ class Scene:
             for _ in range(int(rest or 1)):
                 for device, dt_ms in ROUND:
                     self.scan(device, dt_ms)
+        elif word == "settle":
+            self.settle()
         elif word == "scan":
             *names, times = rest.split(" ") if rest[-1:].isdigit() else [*rest.split(" "), "1"]
             if any(name not in self.rows for name in names):
@@ -114,6 +116,18 @@ class Scene:
             self.reset()
         else:
             raise ValueError(f"{text!r} is no action of this cell")
+
+    def settle(self) -> None:
+        """Whole rounds until the F-PLC has left Start and is ready for a key. E-25c, E-52
+
+        Without a key and a fault that takes the dwell time and one round. Raises ValueError where it takes more.
+        """
+        fplc = self.devices["fplc"]
+        for _ in range(self.system.fplc_state.params.T_DWELL_ms // ROUND_MS + 2):
+            if fplc.control() != "Start":
+                return
+            self.do("round 1")
+        raise ValueError("the F-PLC does not become ready for a key")
 
     def touch(self, field: str) -> None:
         """The user touches a field; it counts in the panel's next scan."""

@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from playwright.sync_api import Browser
 
 from modeproof.simulate.program.device import Device, take
-from scenes.mode_selection.scene import Scene
-from tests.report.browser.opened import WAIT_MS, Opened
-from tests.simulate.conftest import ROOT, SCENE, scenes_of
+from scenes.mode_selection.scene import ROUND, Scene
+from tests.report.browser.opened import WAIT_MS, Opened, open_page
+from tests.simulate.conftest import READY, ROOT, SCENE, scenes_of
 from tests.simulate.test_program import STORIES, play, wrong_ends
 
 WORDS = (
@@ -47,6 +48,8 @@ PUBLISHED = [
     for target in TARGETS
     if (ROOT / f"vectors/{target}/{suite}.jsonl.gz").is_file()
 ]
+SOON_MS = 2_500
+"""From opening the file to a page that can be used."""
 MOST_SCANS = 2_000
 """Of a larger suite the test looks at every n-th case; with MODEPROOF_LONG it runs all."""
 
@@ -72,7 +75,7 @@ def agree(opened: Opened, root: str, scene: Any, number: int = 0) -> None:
 
 @pytest.fixture
 def cell(opened: Opened) -> Opened:
-    """The open page with the cell just switched on."""
+    """The open page with a cell that is ready for a key."""
     opened.page.click("nav [data-part^=scene]")
     opened.page.select_option("#choose", "0")
     opened.page.click("#leave")
@@ -81,6 +84,7 @@ def cell(opened: Opened) -> Opened:
 
 def test_a_whole_change_stepped_by_hand_is_that_of_python(cell: Opened, known: dict[str, Any]) -> None:
     scene, page = Scene(known[SCENE], {}), cell.page
+    page.get_by_role("button", name="Power off and on").first.click()
     page.get_by_role("button", name="Insert the key of level 2").click()
     scene.do("insert 2")
     for _ in range(62):
@@ -113,6 +117,26 @@ def test_a_whole_change_stepped_by_hand_is_that_of_python(cell: Opened, known: d
         agree(cell, "[data-cell]", scene)
     assert "MSO_1" in stands(cell, "[data-cell]")[1]
     assert page.locator("#said").inner_text().startswith("active: 1: Automatic mode")
+
+
+def test_the_first_play_of_a_visitor_succeeds(browser: Browser, page_file: Path) -> None:
+    with open_page(browser, page_file) as fresh:
+        page = fresh.page
+        page.wait_for_function(READY)
+        page.get_by_role("button", name="Insert the key of level 2").press("Enter")
+        page.locator("[data-go=play]").first.press("Enter")
+        for field in ("1 Automatic mode", "Confirm"):
+            button = page.get_by_role("button", name=field, exact=True)
+            page.wait_for_function("(node) => !node.disabled", arg=button.element_handle())
+            button.press("Enter")
+        page.wait_for_selector("[data-on=MSO_1].on")
+        assert page.locator("[data-on=ERROR].on").count() == 0
+
+
+def test_the_page_can_be_used_soon(browser: Browser, page_file: Path) -> None:
+    with open_page(browser, page_file) as fresh:
+        fresh.page.wait_for_function(READY)
+        assert fresh.ask("() => window.modeproofReady") < SOON_MS
 
 
 def test_what_is_closed_on_the_panel_cannot_be_touched(cell: Opened) -> None:
@@ -181,6 +205,7 @@ def test_a_saved_log_is_played_again(cell: Opened, tmp_path: Path) -> None:
     log = tmp_path / "log.jsonl"
     saved.value.save_as(log)
     scans = len(log.read_text().splitlines()) - 1
+    assert scans > 4 * len(ROUND), "the log begins at power-up"
     page.click("nav [data-part=suites]")
     text = log.read_text().replace('"LA":false', '"LA":true', 1)
     for content, difference in ((log.read_text(), ""), (text, "the log has True")):

@@ -186,6 +186,24 @@ def test_a_saved_log_plays_to_the_same_end(known: dict[str, Any]) -> None:
     assert "LA is False, the log has True" in again.differs
 
 
+@pytest.mark.parametrize("dwell", [0, 500])
+def test_a_settled_cell_takes_a_key_at_once(dwell: int, known: dict[str, Any]) -> None:
+    for first, error in (("settle", False), ("scan fplc", dwell > 0)):
+        scene = Scene(known[SCENE], {"fplc": {"T_DWELL_ms": dwell}})
+        for action in (first, "insert 2", "round 31"):
+            scene.do(action)
+        assert scene.show()["on"]["ERROR"] == error
+        assert scene.show()["open"]["select:1"] != error
+
+
+def test_a_cell_that_never_settles_says_so(known: dict[str, Any]) -> None:
+    scene = Scene(known[SCENE], {})
+    for action in ("output LA", "fault la_stuck_at_1"):
+        scene.do(action)
+    with pytest.raises(ValueError, match="does not become ready for a key"):
+        scene.do("settle")
+
+
 def test_a_log_of_another_target_is_refused(known: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="a log of 'fplc' cannot be played here"):
         Scene(known[SCENE], {}).begin_log({"target": "fplc", "params": {}})

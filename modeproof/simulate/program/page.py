@@ -30,7 +30,7 @@ class Page:
         self.code: dict[str, Any] = {}
         for name in FACTS["scenes"]:
             self.code[name] = module_named(f"scenes.{name}.scene")
-            self.open_cells(name, [{"title": "", "params": {}}])
+            self.open_free(name)
         self.parts = [nav.attrs["data-part"] for nav in document.select("nav [data-part]")]
         for nav in document.select("nav [data-part]"):
             nav.bind("click", lambda event: self.show_part(event.currentTarget.attrs["data-part"]))
@@ -70,6 +70,11 @@ class Page:
     def set_param(self, id: str, field: Any) -> None:
         """Another parameter of a block; a value out of range is said and not taken."""
         self.act(id, f"param {field.attrs['data-param']} {field.value}")
+
+    def open_free(self, name: str) -> None:
+        """One cell to play freely: it has been on for a while and is ready for a key."""
+        self.open_cells(name, [{"title": "", "params": {}}])
+        self.act(name, "settle")
 
     def open_cells(self, name: str, cells: list[dict[str, Any]]) -> None:
         """One drawing a cell, all of the same scene, each with its own parameters."""
@@ -299,7 +304,7 @@ class Page:
         """Free play again, with everything powered up anew."""
         self.pause()
         if self.player is not None and self.told in FACTS["scenes"]:
-            self.open_cells(self.told, [{"title": "", "params": {}}])
+            self.open_free(self.told)
         elif self.player is not None and self.told is not None:
             self.views[self.told][0].scene.reset()
             _allow(self.views[self.told][0].root, True)
