@@ -76,7 +76,7 @@ class Scene:
     # ------------------------------------------------------------------------------------------ what is done
 
     def do(self, text: str) -> None:
-        """One action: `insert 2`, `remove`, `touch confirm`, `round 8`, `scan eks fplc 3`, `fault loss`, `settle`.
+        """One action: `insert 2`, `remove`, `touch confirm`, `scan eks fplc 3`, `fault loss`, `settle`.
 
         Raises ValueError for what is no action.
         """
@@ -120,7 +120,7 @@ class Scene:
     def settle(self) -> None:
         """Whole rounds until the F-PLC has left Start and is ready for a key. E-25c, E-52
 
-        Without a key and a fault that takes the dwell time and one round. Raises ValueError where it takes more.
+        Without a key and a fault that takes the dwell time and one round. Raises ValueError after that.
         """
         fplc = self.devices["fplc"]
         for _ in range(self.system.fplc_state.params.T_DWELL_ms // ROUND_MS + 2):
