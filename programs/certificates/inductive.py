@@ -10,7 +10,7 @@ import z3
 
 from programs.certificates.certificate_folder import Obligation, obligation
 from programs.certificates.smt_lib import Printer
-from programs.invariants.induction import Proof, System, Unrolled, conjuncts
+from programs.invariants.induction import Proof, System, Unrolled, conjuncts, in_place, named, places_of
 from programs.semantics.terms import names_in
 
 
@@ -33,17 +33,27 @@ def obligations(whole: System, claims: Sequence[Claim]) -> Iterator[Obligation]:
         together = [*conjuncts(system.within), *proof.lemmas]
         where = [(term, system.after[path]) for path, term in system.state.items()]
         scan = z3.And(*together, system.assumed, system.inside)
+        places = places_of(proof.lemmas)
         questions = {}
         for count, part in enumerate(together, 1):
             what = f"the range or invariant {count} of {len(together)}"
             questions[f"not: {what} is true at power-up"] = z3.And(system.first, z3.Not(part))
-            questions[f"not: {what} survives a scan"] = z3.And(scan, z3.Not(z3.substitute(part, *where)))
+            if len(places) == 1:
+                questions[f"not: {what} survives a scan"] = z3.And(scan, z3.Not(z3.substitute(part, *where)))
+        after = z3.substitute(z3.And(together), *where)
+        for at, place in enumerate(places if len(places) > 1 else (), 1):
+            what = f"every range and invariant survives a scan from place {at} of {len(places)}"
+            questions[f"not: {what}"] = in_place(place, z3.And(scan, z3.Not(after)))
         for last in range(proof.deep):
             facts = _scans(system, proof.lemmas, bad, last, True)
             questions[f"not: scan {last + 1} from power-up has the property"] = z3.And(*facts)
         facts = _scans(system, proof.lemmas, bad, proof.deep - 1, False)
         before = f"{proof.deep - 1} scans with it" if proof.deep > 1 else "what is known"
-        questions[f"not: after {before} a scan has the property"] = z3.And(*facts)
+        first = [(term, named(term, 0)) for term in system.state.values()]
+        for at, place in enumerate(places, 1):
+            here = f" of place {at}" if len(places) > 1 else ""
+            begun = z3.substitute(place, *first)
+            questions[f"not: after {before}{here} a scan has the property"] = in_place(begun, z3.And(*facts))
         sentence = f"{claim.id}: {claim.text}"
         yield obligation(printer, number, claim.id, sentence.replace("\n", " "), {}, questions)
 
@@ -88,6 +98,13 @@ def pruned(whole: System, bad: z3.BoolRef, proof: Proof) -> Proof:
     return replace(proof, lemmas=tuple(needed))
 
 
+def _over_all(whole: System, bad: z3.BoolRef, proof: Proof) -> Proof:
+    """The proof over the whole program, with all invariants. As in `pruned`, of what no scan changes too."""
+    names = {str(term) for term in whole.cone(bad, *proof.lemmas).state.values()}
+    known = [symbol == value for symbol, value in whole.constants if str(symbol) in names]
+    return replace(proof, lemmas=(*proof.lemmas, *known))
+
+
 def _at_each(system: System, part: z3.BoolRef, deep: int) -> list[z3.BoolRef]:
     """An invariant before each of so many scans."""
     unrolled = Unrolled(system, [], False)
@@ -114,7 +131,7 @@ def _core(
 
 def kept(whole: System, bad: z3.BoolRef, proof: Proof) -> Proof:
     """A proof as it will be read again. Raises TimeoutError."""
-    small = pruned(whole, bad, proof)
+    small = pruned(whole, bad, proof) if len(places_of(proof.lemmas)) == 1 else _over_all(whole, bad, proof)
     return replace(small, lemmas=read_invariants(whole, [lemma.sexpr() for lemma in small.lemmas]))
 
 

@@ -272,13 +272,12 @@ class Judgement:
             way, looked = shortest(self.system, bad, FEW_SCANS, started + seconds)
             if way is not None:
                 return self._replayed(asked, self.beside.wires.run_of(way))
-            proof = spacer_over_numbers(self.system, bad, [], seconds / 12)
+            proof = self._by_places(bad, time.process_time() + seconds) if self.places else None
+            proof = proof or spacer_over_numbers(self.system, bad, [], seconds / 12)
             proof = proof or spacer(self.system, bad, [], seconds / 4)
         if proof is None and self.brief:
             how = f"nothing breaks it within {looked} scans; invariants were not looked for"
             return Found(asked, "UNKNOWN", how, scans=looked)
-        if proof is None and self.places:
-            proof = self._by_places(bad, time.process_time() + seconds)
         if proof is None and not self.replays.broken and self.samples:
             proof = induction(self.system, bad, self.lemmas, started + seconds)
             proof = proof or spacer(self.system, bad, self.lemmas, seconds / 2)
@@ -293,8 +292,10 @@ class Judgement:
 
     def _by_places(self, bad: z3.BoolRef, until: float) -> Proof | None:
         """A proof by an invariant that is split by the places; None: it has none in that time."""
-        places = [name for name in self.places if name in self.system.cone(bad).state]
-        located = Located(self.system.cone(bad), places, self.tell)
+        system, places = self.system.cone(bad), self.places
+        if not {*places} <= {*system.state}:
+            return None
+        located = Located(system, places, self.tell)
         try:
             located.find(until)
             proof = induction(self.system, bad, located.lemmas(), until + self.seconds)

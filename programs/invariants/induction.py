@@ -250,13 +250,15 @@ def holds_up(system: System, bad: z3.BoolRef, proof: Proof) -> bool:
     small = system.cone(bad, *proof.lemmas)
     if not is_inductive(small, proof.lemmas):
         return False
-    for from_start in (False, True):
-        unrolled = Unrolled(small, proof.lemmas, from_start)
+    places = places_of(proof.lemmas)
+    for known in [[place] for place in places] + [None]:
+        unrolled = Unrolled(small, proof.lemmas, known is None)
+        unrolled.add(*(unrolled.put(part, 0, False) for part in known or ()))
         for number in range(proof.deep):
             if number:
                 unrolled.more()
             last = number == proof.deep - 1
-            if (from_start or last) and unrolled.ask(unrolled.put(bad, number)) != z3.unsat:
+            if (known is None or last) and unrolled.ask(unrolled.put(bad, number)) != z3.unsat:
                 return False
             unrolled.add(z3.Not(unrolled.put(bad, number)))
     return True
@@ -266,9 +268,10 @@ def is_inductive(system: System, lemmas: Sequence[z3.BoolRef]) -> bool:
     """The lemmas and the ranges of memory hold at power-up and survive every scan. Raises TimeoutError."""
     together = z3.And([system.within, *lemmas])
     where = [(term, system.after[path]) for path, term in system.state.items()]
+    after, scan = z3.substitute(together, *where), z3.And(together, system.assumed, system.inside)
     for known, then in (
         (system.first, together),
-        (z3.And(together, system.assumed, system.inside), z3.substitute(together, *where)),
+        *((z3.And(place, scan), after) for place in places_of(lemmas)),
     ):
         solver = z3.Solver()
         solver.set(**limits(3 * LIMIT_MS))
@@ -279,6 +282,33 @@ def is_inductive(system: System, lemmas: Sequence[z3.BoolRef]) -> bool:
         if answer == z3.sat:
             return False
     return True
+
+
+def places_of(lemmas: Sequence[z3.BoolRef]) -> list[z3.BoolRef]:
+    """The places of an invariant by places: what is in one of them is asked of each alone. TRUE: it has none."""
+    for lemma in lemmas:
+        if z3.is_or(lemma) and lemma.num_args() > 1:
+            names = [{str(symbol) for symbol, _ in said_by(part)} for part in lemma.children()]
+            if names[0] and all(one == names[0] for one in names):
+                return list(lemma.children())
+    return [z3.BoolVal(True)]
+
+
+def in_place(place: z3.BoolRef, formula: z3.BoolRef) -> z3.BoolRef:
+    """A formula in a place, with the values there for their names; the formula itself where the place is TRUE."""
+    where = said_by(place)
+    return z3.And(place, z3.simplify(z3.substitute(formula, *where))) if where else formula
+
+
+def said_by(place: z3.BoolRef) -> list[tuple[Any, Any]]:
+    """The symbols and values of a place; nothing if it says something else."""
+    found = []
+    for part in conjuncts(place):
+        pair = sorted(part.children(), key=lambda side: bool(names_in([side])), reverse=True)
+        if not z3.is_eq(part) or not z3.is_const(pair[0]) or names_in(pair[1:]) or not names_in(pair[:1]):
+            return []
+        found.append((pair[0], pair[1]))
+    return found
 
 
 def spacer(system: System, bad: z3.BoolRef, lemmas: Sequence[z3.BoolRef], seconds: float) -> Proof | None:
