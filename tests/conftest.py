@@ -16,6 +16,7 @@ HERE = Path(__file__).resolve().parent
 # Modules beside the tests assert too and show their values. This must come before they are imported.
 pytest.register_assert_rewrite(*(f"tests.{path.stem}" for path in HERE.iterdir()))
 
+from modeproof.ground.solvers import needing_solvers  # noqa: E402
 from tests.any_machine import PATIENCE_S, no_hurry  # noqa: E402
 from tests.groups import group_of  # noqa: E402
 from tests.tiers import divide  # noqa: E402
@@ -52,6 +53,16 @@ def time_to_shrink() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("modeproof.kit.suite_judge.SHRINKING_S", PATIENCE_S)
         yield
+
+
+@pytest.fixture
+def deaf() -> Iterator[None]:
+    """For tests that interrupt this process: z3 would stop for good, and other tests still need it."""
+    with needing_solvers():
+        import proofs.theorem  # noqa: F401
+    before = signal.set_wakeup_fd(-1)
+    yield
+    signal.set_wakeup_fd(before)
 
 
 def program() -> str | None:

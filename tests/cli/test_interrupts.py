@@ -11,15 +11,15 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from modeproof.cli import main
 from modeproof.ground.places import TREE
-from modeproof.ground.solvers import needing_solvers
 from tests.any_machine import until
+
+pytestmark = pytest.mark.usefixtures("deaf")
 
 LIMIT_S = 40
 HARD = """
@@ -47,16 +47,6 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     shutil.copyfile(TREE / "vectors/SHA256SUMS", place / "vectors/SHA256SUMS")
     (place / "log.jsonl").write_text('{"dt_ms":10,"out":{"Ready":false}}\n')
     return place
-
-
-@pytest.fixture(autouse=True)
-def deaf() -> Iterator[None]:
-    """An interrupt of this process would stop z3's work for good, and other tests still need it."""
-    with needing_solvers():
-        import proofs.theorem  # noqa: F401
-    before = signal.set_wakeup_fd(-1)
-    yield
-    signal.set_wakeup_fd(before)
 
 
 def interrupted(place: Path, command: list[str], after_s: float) -> tuple[int, str, str]:

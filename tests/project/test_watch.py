@@ -14,7 +14,7 @@ from tests.any_machine import until
 from tests.project.conftest import Judge
 from tests.project.foreign import BLOCK, TOML, WRONG, write
 
-pytestmark = pytest.mark.usefixtures("asked")
+pytestmark = pytest.mark.usefixtures("asked", "deaf")
 
 
 @pytest.fixture

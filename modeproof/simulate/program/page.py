@@ -92,7 +92,7 @@ class Page:
             node.select_one("[data-title]").text = of["title"]
             view = View(node, code.Scene(facts, of["params"]), facts)
             self.views[name].append(view)
-            _place(node, code)
+            view.lay_out(code)
             if not fresh and node is not drawn[0] and node != drawn[0]:
                 self.listen(node, name)
         if fresh:
@@ -407,16 +407,6 @@ class Page:
     def say(self, text: str) -> None:
         """Tell something in the box of the tour."""
         document["told"].text = text
-
-
-def _place(node: Any, code: Any) -> None:
-    """Put the fields of the panel where the layout of the implementation has them."""
-    for name, (x, y, width, height) in code.places().items():
-        field = node.select_one(f'[data-open="{name}"]')
-        field.style.left, field.style.top = f"{x}%", f"{y}%"
-        field.style.width, field.style.height = f"{width}%", f"{height}%"
-    for field in node.select("[data-mode]"):
-        field.text = code.MODE_NAMES[int(field.attrs["data-mode"])]
 
 
 def _allow(root: Any, free: bool) -> None:

@@ -22,6 +22,15 @@ class View:
         self.drawn: dict[tuple[str, str], Any] = {}
         self.changed: list[Any] = list(root.select(".changed"))
 
+    def lay_out(self, code: Any) -> None:
+        """Put the fields of the panel where the layout of the implementation has them."""
+        for name, (x, y, width, height) in code.places().items():
+            field = self.root.select_one(f'[data-open="{name}"]')
+            field.style.left, field.style.top = f"{x}%", f"{y}%"
+            field.style.width, field.style.height = f"{width}%", f"{height}%"
+        for field in self.root.select("[data-mode]"):
+            field.text = code.MODE_NAMES[int(field.attrs["data-mode"])]
+
     def refresh(self) -> str:
         """Draw the scene; what is new for one who listens."""
         return self.draw(self.scene.show())
