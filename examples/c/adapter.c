@@ -22,13 +22,15 @@ static void time_ms(wire_line *line, const char *name, uint32_t *ms)
     }
 }
 
-static bool choice(wire_line *line, const char *name, const char *no, const char *yes)
+static void choice(wire_line *line, const char *name, const char *no, const char *yes, bool *value)
 {
-    const bool chosen = wire_is(line, name, yes);
-    if (!chosen && wire_has(line, name) && !wire_is(line, name, no)) {
+    if (wire_is(line, name, yes)) {
+        *value = true;
+    } else if (wire_is(line, name, no)) {
+        *value = false;
+    } else if (wire_has(line, name)) {
         wire_refuse(line, name, "unknown value");
     }
-    return chosen;
 }
 
 static void reset(wire_line *line)
@@ -41,9 +43,9 @@ static void reset(wire_line *line)
     time_ms(line, "params.T_SEQ_ms", &set.T_SEQ_ms);
     time_ms(line, "params.T_REM_ms", &set.T_REM_ms);
     time_ms(line, "params.T_DWELL_ms", &set.T_DWELL_ms);
-    set.T_SEQ_FROM_ones = choice(line, "params.T_SEQ_FROM", "LA", "ones");
-    set.ON_ERROR_none = choice(line, "params.ON_ERROR", "hold", "none");
-    set.SELECTIONS_once = choice(line, "params.SELECTIONS", "again", "once");
+    choice(line, "params.T_SEQ_FROM", "LA", "ones", &set.T_SEQ_FROM_ones);
+    choice(line, "params.ON_ERROR", "hold", "none", &set.ON_ERROR_none);
+    choice(line, "params.SELECTIONS", "again", "once", &set.SELECTIONS_once);
     for (int level = 0; level < FPLC_MODES; level++) {
         if (wire_has(line, permits[level])) {
             set.PERMITS[level] = wire_modes(line, permits[level]);

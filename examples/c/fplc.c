@@ -56,8 +56,8 @@ static int8_t level_of(uint8_t vector) /* of a vector with one output */
 fplc_parameters fplc_defaults(void)
 {
     const fplc_parameters set = {
-        .T_ON_ms = 1000, .T_SEQ_ms = 1000, .T_REM_ms = 1000, .T_DWELL_ms = 500,
-        .T_SEQ_FROM_ones = false, .ON_ERROR_none = false, .SELECTIONS_once = false,
+        .T_ON_ms = 1000, .T_SEQ_ms = 1000, .T_REM_ms = 1000, .T_DWELL_ms = 0,
+        .T_SEQ_FROM_ones = true, .ON_ERROR_none = false, .SELECTIONS_once = true,
         .PERMITS = {0x01, 0x03, 0x07, 0x0F, 0x1F}, /* each level its own mode and all lower ones (EKS-T2-2) */
     };
     return set;

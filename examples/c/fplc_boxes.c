@@ -35,7 +35,8 @@ static int8_t outputs_set(const fplc_inputs *in, int8_t *level)
 fplc_parameters fplc_defaults(void)
 {
     const fplc_parameters set = {
-        .T_ON_ms = 1000, .T_SEQ_ms = 1000, .T_REM_ms = 1000, .T_DWELL_ms = 500,
+        .T_ON_ms = 1000, .T_SEQ_ms = 1000, .T_REM_ms = 1000, .T_DWELL_ms = 0,
+        .T_SEQ_FROM_ones = true, .SELECTIONS_once = true,
         .PERMITS = {0x01, 0x03, 0x07, 0x0F, 0x1F}, /* EKS-T2-2 */
     };
     return set;

@@ -39,6 +39,7 @@ HEAD_PROVED = "| fault | the edit | why it changes nothing |"
 LINE = r"^(?=\| ((?:st|scl|fbd|ld|stl)-\S+) \|)(.*)$"
 """A line of the page, and the fault that it is about."""
 BINDINGS = {
+    "examples/st/fplc.st": "examples/cautious.toml",
     "examples/st/sf_edm.scl": "examples/cautious.toml",
     "examples/plcopen/sf_edm.xml": "examples/cautious.toml",
     "examples/plcopen/sf_guard_locking.xml": "examples/plcopen/sf_guard_locking.toml",

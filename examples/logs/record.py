@@ -24,13 +24,17 @@ from refimpl.mode_selection import eks, fplc, key_flows  # noqa: E402
 from refimpl.mode_selection.code_tables import RE, encode  # noqa: E402
 
 Line = dict[str, Any]
-TIMES = {"T_ON_ms": 300, "T_SEQ_ms": 500, "T_REM_ms": 400, "T_DWELL_ms": 100}
+FPLC: dict[str, Any] = {
+    **{"T_ON_ms": 300, "T_SEQ_ms": 500, "T_REM_ms": 400, "T_DWELL_ms": 100},
+    **{"T_SEQ_FROM": "LA", "SELECTIONS": "again"},
+}
+"""The profile cautious, with times of its own."""
 PULSE_MS = 40
 CHECKSUM = 0x1234
 DIP_SWITCHES = 3
 PARAMS = {
     "eks": {"checksum": f"{CHECKSUM:04X}", "dip_switches": DIP_SWITCHES, "T_PULSE_ms": PULSE_MS},
-    "fplc": TIMES,
+    "fplc": FPLC,
 }
 
 
@@ -44,7 +48,7 @@ class Recorder:
 
     def __init__(self) -> None:
         device = eks.Params(dip_switches=DIP_SWITCHES, checksum=lambda data: CHECKSUM, T_PULSE_ms=PULSE_MS)
-        self.system = key_flows.power_up(device, fplc.Params(**TIMES))
+        self.system = key_flows.power_up(device, fplc.Params(**FPLC))
         self.lines: list[Line] = []
 
     def scan(self, device: str, dt_ms: int) -> None:
@@ -178,7 +182,7 @@ TAGS = {
 
 def fplc_log(edit: Callable[[list[Line]], list[Line]] = lambda lines: lines) -> str:
     """A log of the F-PLC as JSON Lines."""
-    return as_lines("fplc", TIMES, edit(one_switchover().of("fplc")))
+    return as_lines("fplc", FPLC, edit(one_switchover().of("fplc")))
 
 
 def logs() -> dict[str, str]:
@@ -187,9 +191,9 @@ def logs() -> dict[str, str]:
     lines = whole.of("fplc")
     return {
         "fplc_good.jsonl": fplc_log(),
-        "fplc_good.csv": as_table(lines, TAGS, TIMES),
-        "fplc_partial.csv": as_table(without(lines, "MW07", "MSO_0", "MSO_3"), TAGS, TIMES),
-        "fplc_sampled.csv": as_table(sampled(lines), TAGS, TIMES),
+        "fplc_good.csv": as_table(lines, TAGS, FPLC),
+        "fplc_partial.csv": as_table(without(lines, "MW07", "MSO_0", "MSO_3"), TAGS, FPLC),
+        "fplc_sampled.csv": as_table(sampled(lines), TAGS, FPLC),
         "fplc_from_the_middle.jsonl": fplc_log(lambda lines: lines[30:]),
         "fplc_wrong_echo.jsonl": fplc_log(wrong_echo),
         "fplc_short_dwell.jsonl": fplc_log(short_dwell),

@@ -30,7 +30,7 @@ from __future__ import annotations
 import ast
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import CodeType
 from typing import Any
 
@@ -129,6 +129,12 @@ class Demands:
     rows: tuple[Demand, ...]
     constant: tuple[str, ...] = ()
     """The inputs that the document calls constant."""
+    own: Mapping[str, Any] = field(default_factory=dict)
+    """Of parameters that are ours and no profile has another value of: the one value that pages speak of."""
+
+    def speak_of(self, params: Mapping[str, Any]) -> bool:
+        """Whether a page says what a program with these parameters does."""
+        return all(params.get(name, value) == value for name, value in self.own.items())
 
 
 def read_demands(
@@ -229,6 +235,7 @@ class Watch:
         self._renamed = [(name, BEFORE + name) for name in self._signals]
         self._env: dict[str, Any] = {}
         self._waited: dict[str, int] = {}
+        self._asked = True
         self.reset({})
 
     def reset(self, params: Mapping[str, Any]) -> None:
@@ -246,9 +253,15 @@ class Watch:
                 env[rule.name] = deque(maxlen=self.latency + 1)
         self._env = env
         self._waited = {}
+        self._asked = self.demands.speak_of(params)
 
     def scan(self, dt_ms: int, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> Demand | None:
-        """The first demand that is broken in this scan, if any. Values are those of the wire."""
+        """The first demand that is broken in this scan, if any. Values are those of the wire.
+
+        A program whose parameters no page speaks of breaks none.
+        """
+        if not self._asked:
+            return None
         env = self._env
         for name, before in self._renamed:
             env[before] = env[name]

@@ -2,7 +2,8 @@
 
 `letter` is what the document says, in its order; `cautious` is what the project recommends where that is
 something else. A program that follows its page has no parameter for a choice. So the cases of the letter send
-none: their values are the defaults.
+none: their values are the defaults. A time that chooses is in the letter with its default, and with any
+other value in the cautious profile: the machine gives it.
 """
 
 from __future__ import annotations
@@ -34,10 +35,17 @@ class OfProfile(Suite):
         defaults = {name: row.get("default") for name, row in self.parameters.items()}
         for case in self.whole.cases():
             given = {**defaults, **case.params}
-            if all(given[name] == value for name, value in self.values.items()):
+            if all(self._has(name, given[name]) for name in self.values):
                 unsent = {name for name, value in self.values.items() if value == defaults[name]}
                 params = {name: value for name, value in case.params.items() if name not in unsent}
                 yield replace(case, params=params)
+
+    def _has(self, name: str, value: Any) -> bool:
+        """Whether the value of a choice is that of the profile."""
+        row, wanted = self.parameters[name], self.values[name]
+        if row.get("type") == "ms" and wanted != row.get("default"):
+            return bool(value != row.get("default"))
+        return bool(value == wanted)
 
 
 def of_profile(suite: Suite, profile: str) -> Suite | None:

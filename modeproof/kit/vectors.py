@@ -189,7 +189,11 @@ class Suite:
         table = self.header.get(DEMANDS)
         if table is None:
             return None
-        return read_demands(table, self.inputs, self.outputs, self.parameters, f"{self.target}: demands")
+        read = read_demands(table, self.inputs, self.outputs, self.parameters, f"{self.target}: demands")
+        ours = {name: row.get("default") for name, row in self.parameters.items() if row.get("project")}
+        profiles = list(self.header.get("profiles", {}).values())
+        own = {n: usual for n, usual in ours.items() if all(one.get(n, usual) == usual for one in profiles)}
+        return replace(read, own=own)
 
     def demanding(
         self,

@@ -1,8 +1,9 @@
 """The two profiles of a document: named sets of values of its parameters.
 
 `letter` is the defaults: what the words say, in their order, wherever that can work. `cautious` is what we
-recommend: the value `cautious` of each parameter that has one, the defaults else. Of which profile a run is,
-is not declared: it follows from the constants of its cfg.
+recommend: the value `cautious` of each parameter that has one, the defaults else. A time that chooses is in
+the profile `letter` with its default alone, and with any other value in `cautious`, for the machine gives it.
+Of which profile a run is, is not declared: it follows from the constants of its cfg.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ PROFILES = (LETTER, CAUTIOUS)
 NEITHER = "neither"
 """What a run is that mixes the two, or has another value."""
 _CHOICES = ("text", "bool")
-"""Types of the parameters that choose between readings. A time is given by the machine."""
+"""Types of the parameters that choose between readings, whatever their values."""
+_TIME = "ms"
 
 
 def value_in(signal: Signal, profile: str) -> Any:
@@ -30,12 +32,29 @@ def value_in(signal: Signal, profile: str) -> Any:
 
 
 def choices_of(device: Device) -> dict[str, Signal]:
-    """The parameters of a device that choose between readings."""
+    """The parameters of a device that choose between readings, and those that are our own."""
     return {
         name: signal
         for name, signal in device.parameters.items()
-        if signal.type in _CHOICES and signal.default is not None
+        if signal.default is not None
+        and (signal.type in _CHOICES or signal.project or signal.cautious is not None)
     }
+
+
+def is_in(signal: Signal, profile: str, value: Any) -> bool:
+    """Whether a value of a parameter, as TOML has it, is that of a profile."""
+    other = signal.type == _TIME and signal.cautious is not None and profile == CAUTIOUS
+    return bool(value != signal.default if other else value == value_in(signal, profile))
+
+
+def profiles_with(device: Device, values: Mapping[str, Any]) -> list[str]:
+    """The profiles of a device that parameters with these values belong to."""
+    chosen = {name: signal for name, signal in choices_of(device).items() if name in values}
+    return [
+        profile
+        for profile in PROFILES
+        if all(is_in(signal, profile, values[name]) for name, signal in chosen.items())
+    ]
 
 
 def profiles_of(device: Device) -> dict[str, dict[str, Any]]:
@@ -49,9 +68,12 @@ def profiles_of(device: Device) -> dict[str, dict[str, Any]]:
 
 
 def choices(interface: Interface) -> dict[str, Signal]:
-    """The choices of all devices, by their names in the specification."""
+    """The choices of all devices by their names in the specification; its sets of modes are operators."""
     return {
-        signal.tla: signal for device in interface.devices.values() for signal in choices_of(device).values()
+        signal.tla: signal
+        for device in interface.devices.values()
+        for signal in choices_of(device).values()
+        if signal.type != "modes"
     }
 
 
@@ -71,16 +93,24 @@ def profile_of(root: Path, run: Run, interface: Interface) -> str:
     asked = {name: signal for name, signal in choices(interface).items() if name in given}
     if not asked:
         return ""
+    printed = run.graph
+    of_graph = (
+        PROFILES if printed is None else profiles_with(interface.devices[printed.device], printed.params)
+    )
     fits = (
         profile
         for profile in PROFILES
-        if all(given[name] == _tla(value_in(signal, profile)) for name, signal in asked.items())
+        if profile in of_graph
+        and all(is_in(signal, profile, _value(given[name])) for name, signal in asked.items())
     )
     return next(fits, NEITHER)
 
 
-def _tla(value: Any) -> str:
-    return str(value).upper() if isinstance(value, bool) else f'"{value}"'
+def _value(text: str) -> Any:
+    """A constant of a cfg, as TOML has the value of a choice."""
+    if text.isdigit():
+        return int(text)
+    return text == "TRUE" if text in ("TRUE", "FALSE") else text.strip('"')
 
 
 def strength_of(root: Path, run: Run) -> str:
@@ -113,10 +143,9 @@ def check_profiles(document: Document, value_fault: Callable[[Signal, object], s
                 yield Problem(file, place, f"cautious {signal.cautious!r} {fault}")
             elif signal.cautious == signal.default:
                 yield Problem(file, place, "cautious is the default; leave it out")
-            elif signal.type not in _CHOICES:
-                yield Problem(
-                    file, place, f"cautious belongs to {' and '.join(_CHOICES)}, not to {signal.type}"
-                )
+            elif signal.type not in (*_CHOICES, _TIME):
+                kinds = ", ".join((*_CHOICES, _TIME))
+                yield Problem(file, place, f"cautious belongs to {kinds}, not to {signal.type}")
             elif signal.name not in shown:
                 yield Problem(file, place, f"no finding has parameter = {signal.tla!r}")
             elif not signal.because:

@@ -46,17 +46,15 @@ Params = Mapping[str, Any]
 
 def scaled(device: DeviceGraph, factor: Fraction | int) -> DeviceGraph:
     """The same graph with all times `factor` times as long, which must be whole milliseconds then."""
-    of = device.device.parameters
-    params = {
-        name: int(value * factor) if of[name].type == "ms" else value for name, value in device.params.items()
-    }
+    times = {name: int(value * factor) for name, value in _times(device.device, device.params).items()}
+    params = {**device.params, **times}
     alphabet = tuple({**letter, "dt_ms": int(letter["dt_ms"] * factor)} for letter in device.alphabet)
     return replace(device, alphabet=alphabet, params=params)
 
 
 def tick_of(device: DeviceGraph) -> int:
     """The length in ms of which all times of a graph and of its parameters are multiples; 0 without times."""
-    return gcd(*{letter["dt_ms"] for letter in device.alphabet}, *_times(device.device, device.params))
+    return gcd(*{letter["dt_ms"] for letter in device.alphabet}, *_times(device.device, device.params).values())
 
 
 def scalable(device: DeviceGraph) -> bool:
@@ -64,8 +62,10 @@ def scalable(device: DeviceGraph) -> bool:
     return device.tick_ms > 1
 
 
-def _times(device: Device, params: Params) -> list[int]:
-    return [value for name, value in params.items() if device.parameters[name].type == "ms"]
+def _times(device: Device, params: Params) -> dict[str, int]:
+    """The times, those that are left out with their defaults."""
+    given = whole(device, params)
+    return {name: value for name, value in given.items() if device.parameters[name].type == "ms"}
 
 
 def whole(device: Device, params: Params) -> dict[str, Any]:
@@ -106,7 +106,7 @@ def graph_at(place: Path, document: str, target: str, params: Params, tick_ms: i
                 return replace(scaled(graph, factor), params=wanted)
     base = min(runs, key=lambda run: _unlike(device, run, wanted))
     assert base.graph is not None, "an OPEN run"
-    times = [abs(value) for value in _times(device, wanted)]
+    times = [abs(value) for value in _times(device, wanted).values()]
     tick = 1 if base.graph.tick_ms == 1 else tick_ms or gcd(*times) or base.graph.tick_ms
     if not tick_ms and tick == max(times, default=0):  # a time of one tick would never come in two scans
         tick //= next((ticks for ticks in range(2, MOST_TICKS + 1) if tick % ticks == 0), 1)

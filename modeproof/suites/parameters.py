@@ -35,9 +35,8 @@ def variants(graphs: Sequence[DeviceGraph]) -> list[DeviceGraph]:
         if not scalable(graph):
             continue
         tick, device = tick_of(graph), graph.device
-        times = [
-            (of.maximum, graph.params[name]) for name, of in device.parameters.items() if of.type == "ms"
-        ]
+        given = whole(device, graph.params)
+        times = [(of.maximum, given[name]) for name, of in device.parameters.items() if of.type == "ms"]
         longest = min((most * tick // value for most, value in times if most and value > 0), default=1 << 16)
         ticks = [*TICKS_MS, longest] if graph is graphs[0] else [TICKS_MS[turn % len(TICKS_MS)]]
         turn += graph is not graphs[0]

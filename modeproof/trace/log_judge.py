@@ -89,11 +89,14 @@ class Graphs:
 
 
 def _same(device: Device, run: Run, log: Log) -> bool:
+    """Whether a graph makes the choices of a log. Of a time that chooses it is whether it has its default."""
     assert run.graph is not None
+    given, printed = log.params[device.id], run.graph.params
     return all(
-        signal.type == "ms"
-        or run.graph.params.get(signal.name, signal.default) == log.params[device.id].get(signal.name)
-        for signal in device.parameters.values()
+        (printed.get(name, of.default) == of.default) == (given.get(name) == of.default)
+        if of.type == "ms" and of.cautious is not None
+        else of.type == "ms" or printed.get(name, of.default) == given.get(name)
+        for name, of in device.parameters.items()
     )
 
 

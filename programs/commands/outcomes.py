@@ -24,12 +24,11 @@ from modeproof.output.outcome import (
     tools,
 )
 from modeproof.output.rules import rules_of
-from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs.commands.following import Followed
 from programs.demands.verdicts import Found as FoundDemand
 from programs.demands.watched import Broken
 from programs.equality.binding import Binding
-from programs.equality.comparison import about
+from programs.equality.comparison import about, profile_of
 from programs.equality.replay import Difference
 from programs.equality.verdict import Verdict
 from programs.language.tool_differences import assumed
@@ -157,16 +156,6 @@ def _scans(number: int) -> str:
 
 def _word(value: Any) -> str:
     return str(value).upper() if isinstance(value, bool) else str(value)
-
-
-def profile_of(binding: Binding) -> str:
-    """The profile that the values of a binding are those of; empty where the target has none."""
-    known = profiles_of(binding.reference.device.register)
-    if not known:
-        return ""
-    given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
-    same = [profile for profile, values in known.items() if given.items() <= values.items()]
-    return " and ".join(same) or NEITHER
 
 
 # ---------------------------------------------------------------- properties

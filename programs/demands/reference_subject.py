@@ -9,7 +9,7 @@ from typing import Any
 
 import z3
 
-from modeproof.registers.profiles import value_in
+from modeproof.registers.profiles import CAUTIOUS, value_in
 from programs.demands.subject import Step
 from programs.equality.replay import Run
 from programs.invariants.induction import conjuncts
@@ -28,9 +28,10 @@ class Implementation:
 
     @staticmethod
     def in_profile(reference: Reference, profile: str) -> Implementation:
-        """With the values of a profile for the parameters that choose."""
+        """With the values of a profile for the parameters that choose; a time has it in the letter alone."""
         signals = reference.signals("parameters").items()
-        chosen = {name: of for name, of in signals if of.project or of.cautious is not None}
+        free = {name for name, of in signals if profile == CAUTIOUS and of.type == "ms"}
+        chosen = {n: of for n, of in signals if (of.project or of.cautious is not None) and n not in free}
         values = {name: reference.in_code(name, value_in(of, profile)) for name, of in chosen.items()}
         return Implementation(reference, values)
 

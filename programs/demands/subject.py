@@ -145,8 +145,17 @@ class Program:
 
     @property
     def conditions(self) -> Sequence[z3.BoolRef]:
-        """As `Subject.conditions`."""
-        return self.product.binding.conditions
+        """As `Subject.conditions`; no page speaks of another value of a parameter that is ours."""
+        binding = self.product.binding
+        return (*binding.conditions, *binding.fixing(self._own))
+
+    @cached_property
+    def _own(self) -> dict[str, Any]:
+        """The parameters that are ours, that no profile has another value of, and that the program takes."""
+        binding = self.product.binding
+        signals = binding.reference.signals("parameters")
+        free = {name: signals[name] for name in binding.free_parameters}
+        return {name: of.default for name, of in free.items() if of.project and of.cautious is None}
 
     @property
     def longest_scan(self) -> int | None:
@@ -155,7 +164,9 @@ class Program:
 
     def allows(self, parameters: Mapping[str, Any]) -> bool:
         """As `Subject.allows`."""
-        return self.product.binding.allows(parameters)
+        of = self.reference
+        usual = all(parameters[name] == of.in_code(name, value) for name, value in self._own.items())
+        return usual and self.product.binding.allows(parameters)
 
     def run(self, run: Run) -> Iterator[Step]:
         """As `Subject.run`."""

@@ -236,8 +236,17 @@ class Binding:
     @cached_property
     def conditions(self) -> tuple[z3.BoolRef, ...]:
         """The fixed parameters as formulas, and the ranges of the program's own types for its inputs."""
+        found = self.fixing(self.values)
+        for path, slot in self._inputs.items():
+            term = self.term(path)
+            if slot.type.kind in ("int", "time") and z3.is_int(term):
+                found.append(z3.And(term >= slot.type.low, term <= slot.type.high))
+        return tuple(found)
+
+    def fixing(self, values: Mapping[str, Any]) -> list[z3.BoolRef]:
+        """Parameters with these values, as formulas."""
         terms, found = self.reference.parameter_terms, []
-        for name, value in self.values.items():
+        for name, value in values.items():
             signal = self.reference.signals("parameters")[name]
             if signal.type == "modes":
                 found += [terms[f"{name}[{mode}]"] == (mode in value) for mode in range(5)]
@@ -247,11 +256,7 @@ class Binding:
                 found.append(terms[name] == bool(value))
             else:
                 found.append(terms[name] == int(value))
-        for path, slot in self._inputs.items():
-            term = self.term(path)
-            if slot.type.kind in ("int", "time") and z3.is_int(term):
-                found.append(z3.And(term >= slot.type.low, term <= slot.type.high))
-        return tuple(found)
+        return found
 
     @cached_property
     def compared(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
+from modeproof.registers.profiles import NEITHER, profiles_of, profiles_with
 from programs.equality.binding import Binding
 from programs.equality.product import Product
 from programs.language.shared_memory import completed
@@ -63,14 +63,18 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
             ]
         ),
     )
-    if known := profiles_of(binding.reference.device.register):
-        given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
-        same = [profile for profile, values in known.items() if given.items() <= values.items()]
-        yield "profile", " and ".join(same) or NEITHER
+    if profile := profile_of(binding):
+        yield "profile", profile
     yield "inputs", f"every value, {times_of(product)}"
     yield "numbers", numbers_of(product)
     if choices := list(assumed(binding.source, binding.unit, binding.steady)):
         yield "assumed", "; ".join(choices)
+
+
+def profile_of(binding: Binding) -> str:
+    """The profile that the values of a binding are those of; empty where the target has none."""
+    device = binding.reference.device.register
+    return (" and ".join(profiles_with(device, binding.values)) or NEITHER) if profiles_of(device) else ""
 
 
 def times_of(product: Product) -> str:

@@ -95,11 +95,11 @@ class Params:
 
     T_ON_ms: int = 1000
     T_SEQ_ms: int = 1000
-    T_SEQ_FROM: str = "LA"
+    T_SEQ_FROM: str = "ones"
     T_REM_ms: int = 1000
-    T_DWELL_ms: int = 500
+    T_DWELL_ms: int = 0
     ON_ERROR: str = "hold"
-    SELECTIONS: str = "again"
+    SELECTIONS: str = "once"
     PERMITS_0: tuple[bool, bool, bool, bool, bool] = UP_TO_0
     PERMITS_1: tuple[bool, bool, bool, bool, bool] = UP_TO_1
     PERMITS_2: tuple[bool, bool, bool, bool, bool] = UP_TO_2

@@ -102,7 +102,7 @@ def all_broken(
     return found
 
 
-LETTER = {"SELECTIONS": "once", "T_SEQ_FROM": "ones", "T_DWELL_ms": 0}
+CAUTIOUS = {"SELECTIONS": "again", "T_SEQ_FROM": "LA", "T_DWELL_ms": 500}
 DROPPING = {"ON_ERROR": "none", "T_DWELL_ms": 900}
 WAYS = [
     dict(zip(("rows", "keep", "again", "latched"), way, strict=True))
@@ -122,7 +122,7 @@ def literal(latency: int, **way: bool) -> Following:
 
 
 FOLLOW = [
-    reference("fplc", 1, **LETTER),
+    reference("fplc", 1, **CAUTIOUS),
     reference("fplc", 0),
     literal(1, rows=True),
     literal(1, rows=False, keep=False, again=True),
@@ -171,14 +171,14 @@ def test_the_published_sequences_blame_no_program_that_follows(
             assert broken(target, make(), wires, latency, case.params) == "", case.id
 
 
-def test_a_narrower_permission_meets_the_demands() -> None:
+def test_a_narrower_permission_is_none_of_the_page() -> None:
     narrow = {"PERMITS_3": [3], "PERMITS_4": [2, 4]}
-    for target, name in (
-        ("fplc", "level 3, mode 1"),
-        ("fplc", "level 4, mode 4"),
-        ("hmi", "level 3, mode 3"),
+    for target, name, demand in (
+        ("fplc", "level 3, mode 1", "NoErrorInAGoodCourse"),
+        ("fplc", "level 4, mode 4", ""),
+        ("hmi", "level 3, mode 3", "FieldsOpen"),
     ):
-        assert broken(target, Reference(target, **narrow), COURSES[target][name]) == ""
+        assert broken(target, Reference(target, **narrow), COURSES[target][name]) == demand
 
 
 FAULTS_FPLC = {

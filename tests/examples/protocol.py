@@ -71,8 +71,8 @@ REFUSED = [
     ({"op": "hello", "protocol": 1, "target": "plc"}, "fplc"),
     ({"op": "reset", "params": {"T_HUH_ms": 1}}, "T_HUH_ms"),
     ({"op": "reset", "params": {"T_ON_ms": "1000"}}, "T_ON_ms"),
-    ({"op": "reset", "params": {"T_REM_ms": 500}}, "T_DWELL_ms"),
-    ({"op": "reset", "params": {"T_ON_ms": 1001}}, "T_SEQ_ms"),
+    ({"op": "reset", "params": {"T_REM_ms": 500, "T_DWELL_ms": 500}}, "T_DWELL_ms"),
+    ({"op": "reset", "params": {"T_ON_ms": 1001, "T_SEQ_FROM": "LA"}}, "T_SEQ_ms"),
     ({"op": "reset", "params": {"T_SEQ_FROM": "zeros"}}, "T_SEQ_FROM"),
     *[
         ({"op": "reset", "params": {"PERMITS_1": wrong}}, "PERMITS_1")

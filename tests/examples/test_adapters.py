@@ -97,8 +97,8 @@ def test_every_declared_parameter_is_taken_and_changes_the_behaviour(adapter: Pa
     declared = {name: own["default"] for name, own in INTERFACE["devices"]["fplc"]["parameters"].items()}
     assert not ends_in_error(to_selection, **declared)
     assert ends_in_error(to_selection, **declared | {"PERMITS_2": [0, 2]})
-    assert ends_in_error(sequence, **declared)
-    assert not ends_in_error(sequence, **declared | {"T_SEQ_FROM": "ones"})
+    assert ends_in_error(sequence, **declared | {"T_SEQ_FROM": "LA"})
+    assert not ends_in_error(sequence, **declared)
 
 
 @BOTH

@@ -112,12 +112,23 @@ def test_a_profile_without_a_case_is_no_pass(tmp_path: Path, capsys: pytest.Capt
 
 @pytest.mark.parametrize("asked", [LETTER, CAUTIOUS])
 def test_a_profile_is_refused_where_there_are_none(asked: str, capsys: pytest.CaptureFixture[str]) -> None:
-    path = str(ROOT / "vectors/fplc/sequences.jsonl.gz")
-    given = ["conform", "fplc", "--builtin", "refimpl", "--vectors", path, "--quiet", "--profile"]
+    path = str(ROOT / "vectors/plc/sequences.jsonl.gz")
+    given = ["conform", "plc", "--builtin", "refimpl", "--vectors", path, "--quiet", "--profile"]
     assert kit_main([*given, asked]) == 2
-    assert f"fplc has no profiles, so it has none that is {asked}" in capsys.readouterr().err
+    assert f"plc has no profiles, so it has none that is {asked}" in capsys.readouterr().err
     assert kit_main([*given, ALL]) == 0
     assert kit_main([*given, ""]) == 2
+
+
+@pytest.mark.parametrize("name", ["brief", "parameters", "sequences"])
+def test_a_choosing_time_has_its_default_in_the_letter_alone(name: str) -> None:
+    suite = open_suite(ROOT / f"vectors/fplc/{name}.jsonl.gz")
+    letter, cautious = (of_profile(suite, profile) for profile in (LETTER, CAUTIOUS))
+    assert letter is not None and cautious is not None
+    choices = {"T_SEQ_FROM", "T_DWELL_ms", "SELECTIONS", "ON_ERROR"}
+    assert letter.case_count and not any(choices & case.params.keys() for case in letter.cases())
+    times = {case.params["T_DWELL_ms"] for case in cautious.cases()}
+    assert min(times) > 0 and (len(times) > 1) == (name == "parameters")
 
 
 def test_a_target_without_profiles_is_left_whole(tmp_path: Path) -> None:

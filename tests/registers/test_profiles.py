@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
+from modeproof.ground.places import root
 from modeproof.registers import load_document
-from modeproof.registers.profiles import NEITHER, profile_of, profiles_of, strength_of
+from modeproof.registers.profiles import NEITHER, profile_of, profiles_of, profiles_with, strength_of
 
 SPEC = "spec/door/"
 PARAMETER = (
@@ -78,7 +79,7 @@ def test_a_document_without_a_choice_has_no_profile(tree: Any) -> None:
             "cautious 'shrt' is not one of 'long', 'short'",
         ),
         ("interface", 'cautious = "short"', 'cautious = "long"', "cautious is the default; leave it out"),
-        ("interface", "default = 100", "default = 100, cautious = 50", "belongs to text and bool, not to ms"),
+        ("interface", "default = 100", "default = 100, cautious = 50", "no finding has parameter"),
         (
             "interface",
             ', because = "a hand is faster"',
@@ -134,3 +135,19 @@ def test_a_harmless_reading_is_asked_in_both_profiles(two: Any) -> None:
     assert any(expected in line for line in two.problems()), two.problems()
     two.write(SPEC + "runs.toml", f"{runs}[run.also]\nMC_Latch_cautious = []\n")
     assert not any("harmless" in line for line in two.problems()), two.problems()
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ({"T_DWELL_ms": 0}, ["letter"]),
+        ({"T_DWELL_ms": 1}, ["cautious"]),
+        ({"T_DWELL_ms": 0, "SELECTIONS": "again"}, []),
+        ({"T_DWELL_ms": 70, "SELECTIONS": "again", "T_SEQ_FROM": "LA", "T_ON_ms": 5}, ["cautious"]),
+        ({"PERMITS_3": [3]}, []),
+        ({}, ["letter", "cautious"]),
+    ],
+)
+def test_a_time_that_chooses_has_one_value_in_the_letter(values: dict[str, Any], expected: list[str]) -> None:
+    device = load_document(root(), "mode_selection").interface.devices["fplc"]
+    assert profiles_with(device, values) == expected

@@ -84,6 +84,11 @@ def test_all_times_are_longer_together(tmp_path: Path) -> None:
     assert (tick_of(graph), tick_of(longer)) == (250, 7) and longer.graph is graph.graph
 
 
+def test_a_time_that_a_graph_leaves_out_has_its_default(tmp_path: Path) -> None:
+    graph = lamp_graph(tmp_path)
+    assert variants([replace(graph, params={})]) == variants([graph])
+
+
 def test_parameters_of_the_same_proportion_need_no_tlc(toy: Path) -> None:
     assert graph_at(toy, "toy", "lamp", {"T_ms": 1234}).params == {"T_ms": 1234}
     for params, said in (

@@ -28,6 +28,7 @@ _CHECKS = re.compile(
     ("device", "run", "module", "extra"),
     [
         ("fplc", "OPEN_Fplc", "FplcTrace", ""),
+        ("fplc", "OPEN_Fplc_letter", "FplcTrace", ""),
         ("hmi", "OPEN_Hmi", "HmiTrace", ""),
         ("eks", "OPEN_Eks6", "EksOpen, EksTrace", " /\\ in = 0 /\\ beat = FALSE /\\ lasted = 0"),
         ("sf_guard_locking", "OPEN_SF_GuardLocking", GUARD, NOTHING_SEEN),

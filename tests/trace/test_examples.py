@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from modeproof.ground.places import root
 from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed
 from modeproof.trace.log import Log, Rows
 from modeproof.trace.log_judge import Graphs, Judgement
+from modeproof.trace.targets import find_target
 from tests.trace.judging import LOGS, example, judge, record
 
 GOOD = ("fplc_good.jsonl", "fplc_good.csv", "fplc_partial.csv")
@@ -56,6 +58,15 @@ def test_only_tlc_counts_the_ms(found: dict[str, Judgement]) -> None:
 def test_a_log_may_begin_in_the_middle(graphs: Graphs, found: dict[str, Judgement]) -> None:
     (anywhere,) = judge("fplc", [example("fplc", MIDDLE)], graphs, anywhere=True)
     assert (anywhere.verdict, found[MIDDLE].verdict, found[MIDDLE].accepted) == ("CONFORMS", "DIFFERS", 0)
+
+
+@pytest.mark.parametrize(("dwell", "followed"), [(100, {"fplc"}), (0, set())])
+def test_no_graph_with_a_dwell_time_follows_a_log_without(
+    dwell: int, followed: set[str], graphs: Graphs
+) -> None:
+    log, target = example("fplc", GOOD[0]), find_target(root(), "fplc")
+    log = replace(log, params={"fplc": {**log.params["fplc"], "T_DWELL_ms": dwell}})
+    assert graphs.matching(target, log).keys() == followed
 
 
 def test_samples_may_have_scans_between_them(graphs: Graphs, found: dict[str, Judgement]) -> None:

@@ -87,9 +87,9 @@ def test_a_last_line_that_was_cut_off_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match=r"fplc_cut.jsonl: line 53, column \d+: the last line is cut off"):
         example("fplc", "fplc_cut.jsonl")
     text = (LOGS / "fplc_good.csv").read_text()
-    with pytest.raises(Unjudged, match=r"line 57: the last line is cut off"):
+    with pytest.raises(Unjudged, match=r"line 59: the last line is cut off"):
         table(tmp_path, text[:-3])
-    with pytest.raises(Unjudged, match=r"line 57: 9 cells where 17 were expected; the line is cut off"):
+    with pytest.raises(Unjudged, match=r"line 59: 9 cells where 17 were expected; the line is cut off"):
         table(tmp_path, text[: text.rindex(";", 0, -20)].rstrip("\n").rpartition(";")[0] + "\n")
 
 

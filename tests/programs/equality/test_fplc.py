@@ -25,14 +25,20 @@ def silent(text: str) -> None:
     """Nothing is told."""
 
 
-def judged(path: Path, target: str, wrap: bool = False) -> Verdict:
+def judged(path: Path, target: str, wrap: bool = False, profile: str = "letter") -> Verdict:
     """The verdict on a program; the scans of a difference are only made fewer by leaving some out."""
-    return judge(make([path], target, wrap=wrap), ROOT / "vectors" / target, 120, silent, fewest=False)
+    return judge(
+        make([path], target, binding={"profile": profile}, wrap=wrap),
+        ROOT / "vectors" / target,
+        120,
+        silent,
+        fewest=False,
+    )
 
 
 @pytest.mark.deep
 def test_the_fplc_is_proved_equal() -> None:
-    found = judged(PROGRAMS / "fplc.st", "fplc")
+    found = judged(PROGRAMS / "fplc.st", "fplc", profile="cautious")
     word, pairs = found.word, len(found.product.nodes)  # a product takes pytest minutes to print
     assert (word, pairs) == ("PROVED", 18)
     relations = {str(relation) for node in found.product.nodes.values() for relation in node.relations}
@@ -74,7 +80,7 @@ def test_a_fault_of_the_fplc_is_refuted(name: str, tmp_path: Path) -> None:
     assert text.count(FAULTS[name][0]) == 1
     path = tmp_path / "fplc.st"
     path.write_text(text.replace(*FAULTS[name]), "utf-8")
-    found = judged(path, "fplc")
+    found = judged(path, "fplc", profile="cautious")
     assert found.word == "REFUTED" and found.difference is not None
     again = replay(found.product.binding, False, found.difference.run, "")
     assert again is not None and again.differing == found.difference.differing

@@ -50,8 +50,9 @@ class Moment:
 
 
 def beginning(selections: str = "again", **times: int) -> Moment:
-    """Power-up; the default times of the F-PLC unless others are given."""
-    params = fplc.Params(SELECTIONS=selections, **times)
+    """Power-up, in the profile cautious unless other selections or times are given."""
+    dwell = times.pop("T_DWELL_ms", 500)
+    params = fplc.Params(T_SEQ_FROM="LA", T_DWELL_ms=dwell, SELECTIONS=selections, **times)
     return Moment(key_flows.power_up(eks.Params(lambda data: CHECKSUM), params))
 
 
