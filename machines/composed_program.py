@@ -333,7 +333,7 @@ def _value(value: Expression) -> str:
     if isinstance(value, Literal) and value.type is TIME:
         return f"T#{value.value}ms"
     if isinstance(value, Literal) and value.type is not None and value.type.kind == "enum":
-        return value.type.names[int(value.value)]
+        return f"{value.type.name}#{value.type.names[int(value.value)]}"
     return shown(value)
 
 

@@ -54,7 +54,9 @@ def scaled(device: DeviceGraph, factor: Fraction | int) -> DeviceGraph:
 
 def tick_of(device: DeviceGraph) -> int:
     """The length in ms of which all times of a graph and of its parameters are multiples; 0 without times."""
-    return gcd(*{letter["dt_ms"] for letter in device.alphabet}, *_times(device.device, device.params).values())
+    return gcd(
+        *{letter["dt_ms"] for letter in device.alphabet}, *_times(device.device, device.params).values()
+    )
 
 
 def scalable(device: DeviceGraph) -> bool:

@@ -169,6 +169,8 @@ def judge_logs(
     """
     if samples and target.system:
         raise Unjudged(f"--samples is for one device; a line of a log of {target.id} is one scan")
+    if anywhere and not target.anywhere:
+        raise Unjudged(f"a log of {target.id} must begin at power-up")
     passed = graphs.passed(target)
     shares = [compared(target, log, passed) for log in logs]
     for log, share in zip(logs, shares, strict=True):

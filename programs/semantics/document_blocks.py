@@ -285,6 +285,8 @@ def _constant(types: Types, name: str, expression: Expression) -> int:
     match expression:
         case Literal() | Unary("-", Literal(), _) | Name():
             return types.constant(expression)
+        case Member() if types.enum_member(expression) is not None:
+            return types.constant(expression)
     raise expression.place.refuse(f"{name} is a parameter, so it needs a constant")
 
 

@@ -540,7 +540,7 @@ def shared_deadline_holds(scan: Scanned, seen: Seen) -> z3.BoolRef:
 @theorem(
     clauses=["EKS-2-6", "EKS-2-8", "EKS-4-2", "EKS-8-3", "EKS-8-11"],
     findings=["E-03", "E-30", "E-38"],
-    properties=["SharedDeadlineHolds"],
+    properties=["SharedDeadlineHolds", "OneTimeForThePulse"],
     slow=True,
 )
 def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:

@@ -92,7 +92,7 @@ def test_a_parameter_that_is_none_is_refused(
 def test_parameters_that_do_not_go_together_are_unjudged(capsys: pytest.CaptureFixture[str]) -> None:
     path = str(ROOT / "vectors/fplc/sequences.jsonl.gz")
     args = ["conform", "fplc", "--builtin", "refimpl", "--vectors", path, "--quiet"]
-    assert kit_main([*args, "--param", "T_SEQ_ms=3"]) == 2
+    assert kit_main([*args, "--param", "T_SEQ_FROM=LA", "--param", "T_SEQ_ms=3"]) == 2
     assert "reset was refused: T_SEQ_ms: expected at least T_ON_ms" in capsys.readouterr().out
 
 

@@ -154,7 +154,7 @@ def test_words_lie_in_memory_high_byte_first(suite: Suite, plc: Plc, tmp_path: P
     path.write_text(STEPPED, encoding="utf-8")
     with s7.connect(plc.address, path, suite) as program:
         program.reset({"T_ON_ms": 0x010203, "T_SEQ_ms": 0x010204, "ON_ERROR": "none"})
-        assert plc.settings[:9] == bytes([0, 1, 2, 3, 0, 1, 2, 4, 0]) and plc.settings[16] == 2
+        assert plc.settings[:9] == bytes([0, 1, 2, 3, 0, 1, 2, 4, 0]) and plc.settings[16] == 7
         assert plc.settings[17:22] == bytes([0x01, 0x03, 0x07, 0x0F, 0x1F])
         plc.flags[0], plc.flags[15] = 0xAA, 0xBB
         program.scan(7, NOTHING | {"LA": True, "STR": True, "MW03": "0FF0", "MW07": "3C3D"})
@@ -164,7 +164,8 @@ def test_words_lie_in_memory_high_byte_first(suite: Suite, plc: Plc, tmp_path: P
 
 
 @pytest.mark.parametrize("relation", [SETTLED, EXACT])
-def test_a_plc_that_takes_words_low_byte_first_differs(relation: str, suite: Suite) -> None:
+def test_a_plc_that_takes_words_low_byte_first_differs(relation: str, tmp_path: Path) -> None:
+    suite = suite_of(tmp_path, case_row(journey(500), {"SELECTIONS": "again"}))
     with Plc(order="<H") as plc:
         verdict = judged(suite, plc, STEPPED, relation)
     assert (verdict.word, verdict.status) == ("DIFFERS", 1)

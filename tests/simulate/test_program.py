@@ -236,7 +236,7 @@ WHERE = {
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_fault_changes_what_is_read_until_mended(kind: str, known: dict[str, Any]) -> None:
-    scene = Scene(known[SCENE], {})
+    scene = Scene(known[SCENE], {"fplc": {"SELECTIONS": "again", "T_DWELL_ms": 500}})
     for action in (
         "round 30",
         "insert 2",

@@ -47,7 +47,7 @@ def test_the_first_wrong_scan_is_that_of_tlc(
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["fplc", "fplc_partial.csv"], "line 6 leaves MW07 open, so only TLC can judge it"),
+        (["fplc", "fplc_partial.csv"], "line 8 leaves MW07 open, so only TLC can judge it"),
         (["fplc", "fplc_from_the_middle.jsonl", "--from", "anywhere"], "a log of one device from power-up"),
         (["fplc", "fplc_sampled.csv", "--samples", "20"], "a log of one device from power-up"),
         (["key_flows", "key_flows_good.jsonl"], "a log of one device from power-up"),

@@ -205,6 +205,12 @@ FAULTS = [
     ),
     ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
     (
+        "OneTimeForThePulse",
+        "PulseOnes",
+        _state(fplc_safety.shared_deadline_holds),
+        [("_forget(s, PULSE_ZEROS, elapsed)", "_forget(s, PULSE_ZEROS, 0)")],
+    ),
+    (
         "RemovalTimerGoesOn",
         "Clear",
         fplc_safety.removal_timer_goes_on,
