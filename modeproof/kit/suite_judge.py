@@ -196,12 +196,11 @@ class _Run:
 
     def _never_put(self) -> str:
         """Demands that this suite puts to the reference, and that were never put to this program."""
-        if (watch := self.watch) is not None and not any(
-            watch.demands.speak_of(case.params) for _, case in self._cases()
-        ):
-            return f"no page speaks of a program with other values of {', '.join(watch.demands.own)}"
-        missing = {name for name, count in self.verdict.properties.items() if not count}
         assert self.watch is not None
+        demands = self.watch.demands
+        if not any(demands.speak_of(case.params) for _, case in self._cases()):
+            return f"no page speaks of a program with other values of {', '.join(demands.own)}"
+        missing = {name for name, count in self.verdict.properties.items() if not count}
         if len(missing) < len(self.verdict.properties):
             if due := {one.id for one in self.watch.judged if one.comes}:
                 missing &= due  # a program that does nothing breaks one of those, and keeps each `only if`

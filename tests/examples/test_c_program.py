@@ -248,12 +248,15 @@ def conform(program: Path) -> subprocess.CompletedProcess[str]:
 @pytest.mark.deep
 def test_it_conforms_and_one_edit_of_it_does_not(program: Path, tmp_path: Path) -> None:
     good = conform(program)
-    assert (good.returncode, good.stdout.splitlines()[-1]) == (0, "CONFORMS(exact, brief)"), good.stdout
+    assert (good.returncode, good.stdout.splitlines()[-1]) == (
+        0,
+        "CONFORMS(exact, brief; profile letter)",
+    ), good.stdout
     (fault,) = [one for one in load_faults() if one.id == "figure-7-as-printed"]
     bad = conform(build(tmp_path / "bad", fault))
     assert (bad.returncode, bad.stdout.splitlines()[-1]) == (
         1,
-        'DIFFERS: case fplc-a4df88b904ea, scan 338 (AcceptAcknowledgment): MW01 is "0000", expected "0FF0"; '
-        'MW05 is "0000", expected "33CC"; ERROR is true, expected false',
+        'DIFFERS: case fplc-db631db2e1d3, scan 103 (AcceptAcknowledgment): MW01 is "0000", expected "3333"; '
+        'MW05 is "0000", expected "3333"; ERROR is true, expected false',
     ), bad.stdout
     assert "EKS-7-5" in bad.stdout and "E-01" in bad.stdout

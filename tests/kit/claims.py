@@ -312,6 +312,18 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
     assert kit.run(refused, lambda: Wired(Spoiled(half)), "monitor").word == "UNJUDGED"
 
 
+def no_page_speaks_of_other_values_of_a_parameter_of_ours(kit: Kit) -> None:
+    put = case([(0, True, True), (0, True, True)])
+    given = suite([replace(put, params={"N": 4})], ["monitor"])
+    ours = {**given.parameters, "N": {**given.parameters["N"], "project": True}}
+    verdict = kit.run(replace(given, parameters=ours), Program, "monitor")
+    assert verdict.word == "UNJUDGED"
+    assert verdict.reason == "no page speaks of a program with other values of N"
+    both = suite([put, replace(put, id="other", params={"N": 4})], ["monitor"])
+    assert kit.run(replace(both, parameters=ours), Program, "monitor").word == "FOLLOWS"
+    assert kit.run(given, Program, "monitor").word == "FOLLOWS"
+
+
 def where_something_must_come_that_alone_must_be_put(kit: Kit) -> None:
     comes = {**COMES, "id": "AComes", "comes": "A"}
     demands = {**DEMANDS, "demands": [*DEMANDS["demands"], comes]}  # type: ignore[misc]

@@ -204,12 +204,7 @@ FAULTS = [
         [("return _enter_error(s)  # DeadlineExpired: E-15", "return _wait(s, elapsed)")],
     ),
     ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
-    (
-        "OneTimeForThePulse",
-        "PulseOnes",
-        _state(fplc_safety.shared_deadline_holds),
-        [("_forget(s, PULSE_ZEROS, elapsed)", "_forget(s, PULSE_ZEROS, 0)")],
-    ),
+    ("OneTimeForThePulse", "PulseZeros", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
     (
         "RemovalTimerGoesOn",
         "Clear",
