@@ -10,9 +10,10 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents
 from modeproof.registers.citations import citations, read_sources
+from modeproof.registers.profiles import profiles_of
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
-from modeproof.simulate import recorded
+from modeproof.simulate import reasons, recorded
 from modeproof.simulate.step_marks import labelled
 
 REFERENCE = "refimpl"
@@ -34,6 +35,8 @@ def of_document(document: Document) -> dict[str, Any]:
             used |= {*steps[step]}
         devices[device.id] = {**_device(device), "steps": steps}
         copies[device.id] = _copy(document, device)
+    told = reasons.of_document(document, {device: row["steps"] for device, row in devices.items()})
+    used |= reasons.cited(told)
     traces = load_replay(document.root, document.name) if has_replay(document.root, document.name) else None
     runs = recorded.shown(document)
     texts = {clause.id: clause.text for clause in document.clauses if clause.id in used}
@@ -44,6 +47,7 @@ def of_document(document: Document) -> dict[str, Any]:
         "devices": devices,
         "labelled": copies,
         "readings": _readings(document),
+        "reasons": told,
         "texts": texts,
         "says": {} if traces is None else {name: of.says for of in traces.words for name in of.signals},
         "faults": [
@@ -66,7 +70,8 @@ def of_document(document: Document) -> dict[str, Any]:
 def _device(device: Device) -> dict[str, Any]:
     groups = {"inputs": device.inputs, "outputs": device.outputs, "parameters": device.parameters}
     rows = {name: {of.name: _signal(of) for of in group.values()} for name, group in groups.items()}
-    return {"title": device.title, "published": device.published, **rows}
+    profiles = profiles_of(device)
+    return {"title": device.title, "published": device.published, "profiles": profiles, **rows}
 
 
 def _signal(of: Signal) -> dict[str, Any]:

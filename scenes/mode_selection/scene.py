@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
+from modeproof.simulate.program.reasons import NOTHING, Reasons
 from refimpl.mode_selection import eks, hmi, key_flows
 from refimpl.mode_selection.code_tables import MODE_NAMES, NONE, RE, decode, encode
 from scenes.mode_selection.faults import KINDS, OUTPUTS, RANGE_OF, Faults
@@ -49,9 +50,12 @@ class Scene:
         self.lines: list[dict[str, Any]] = []
         self.wrote = {name: on_wire(self.rows[name]["outputs"], self.devices[name].out) for name in self.rows}
         self.since = dict.fromkeys(self.rows, 0)
+        self.read: dict[str, Any] = {}
+        self.reasons = Reasons(self.facts["reasons"].get("fplc", NOTHING), self._given("fplc"))
         self.clock = self.scans = 0
         self.last = ""
         self.misread: dict[str, dict[str, Any]] = {}
+        self.was_misread = False
         self.level = self.touched = self.confirmed = NONE
         self.differs = ""
 
@@ -60,6 +64,12 @@ class Scene:
         reading = self.facts["readings"].get(self.params.get("reading", ""), {})
         own = reading if reading.get("device") == name else {"labelled": self.facts["labelled"][name]}
         return own["labelled"], self._params(name), own.get("source", "")
+
+    def _given(self, name: str) -> dict[str, Any]:
+        """All parameters of a device as wire values."""
+        own = self.rows[name]["parameters"]
+        defaults = {key: of["default"] for key, of in own.items() if "default" in of}
+        return {**defaults, **self.params.get(name, {})}
 
     def _params(self, name: str) -> dict[str, Any]:
         """The parameters of a device; the panel permits what the F-PLC does. E-47"""
@@ -81,6 +91,8 @@ class Scene:
         Raises ValueError for what is no action.
         """
         word, _, rest = text.strip().partition(" ")
+        if word not in ("round", "scan", "settle"):
+            self.reasons.acted(self.devices["fplc"].control())
         if word == "round":
             for _ in range(int(rest or 1)):
                 for device, dt_ms in ROUND:
@@ -94,23 +106,24 @@ class Scene:
             for _ in range(int(times)):
                 for name in names:
                     self.scan(name, dict(ROUND)[name])
-        elif word == "insert":
+        elif word == "insert" and rest in map(str, LEVELS):
             self.level, self.touched, self.confirmed = int(rest), NONE, NONE
             key = eks.KeyMemory(6, encode(RE, self.level), DIP_SWITCHES, CHECKSUM, 1 + self.level)
             self.system = key_flows.insert_key(self.system, key)
         elif word == "remove":
             self.level = NONE
             self.system = key_flows.remove_key(self.system)
-        elif word == "touch":
+        elif word == "touch" and rest in places():
             self.touch(rest)
         elif word == "fault" and rest in KINDS:
             self.faults.begin(rest, self.words())
+            self.reasons.latest, self.was_misread = "", False
         elif word == "mend":
             self.faults.end()
             self.misread = {}
         elif word in ("word", "other", "output") and (rest in RANGE_OF or rest in ("LA", *OUTPUTS)):
             setattr(self.faults, word, rest)
-        elif word == "mode":
+        elif word == "mode" and rest in map(str, LEVELS):
             self.faults.mode = int(rest)
         elif word == "reset":
             self.reset()
@@ -150,18 +163,22 @@ class Scene:
         fields = self.rows[name]["inputs"]
         differing = [of for of in fields if getattr(faulty, of) != getattr(read, of)]
         self.misread[name] = {of: give(fields[of], getattr(faulty, of)) for of in differing}
+        self.was_misread = self.was_misread or bool(differing)
         self._step(name, faulty, dt_ms)
 
     def _step(self, name: str, inputs: Any, dt_ms: int) -> None:
         before = self.words()
         device = self.devices[name]
+        state = device.control()
         out = device.scan(inputs)
+        if name == "fplc":
+            self.reasons.scanned(state, device.step, device.control())
         self.system = replace(self.system, **{f"{name}_state": device.state, f"{name}_out": out})
         if name == "hmi":
             self.system = replace(self.system, touch=hmi.NO_TOUCH)
         for word, value in self.words().items():
             self.faults.written(word, before[word], value)
-        read = on_wire(self.rows[name]["inputs"], inputs)
+        self.read[name] = read = on_wire(self.rows[name]["inputs"], inputs)
         self.wrote[name] = on_wire(self.rows[name]["outputs"], out)
         self.lines.append({"device": name, "dt_ms": dt_ms, "in": read, "out": self.wrote[name]})
         self.since[name] += dt_ms
@@ -232,6 +249,7 @@ class Scene:
             "scans": str(self.scans),
             "user": self.user(),
             "differs": self.differs,
+            "noticed": self.noticed(),
             "level": "" if self.level == NONE else str(self.level),
             "dwell": f"{self.system.fplc_state.params.T_DWELL_ms} ms",
         }
@@ -251,7 +269,36 @@ class Scene:
             name: {"state": device.control(), "step": device.step, "last": name == self.last}
             for name, device in self.devices.items()
         }
+        state = self.devices["fplc"].control()
+        shown["why"] = {"fplc": self.reasons.show(state, shown["on"]["ERROR"], self.waits_for(state))}
         return shown
+
+    def noticed(self) -> str:
+        """What came of the fault that is in, in this run."""
+        if not self.faults.active:
+            return ""
+        if not self.was_misread:
+            return "In this run: until now every device has read what was written."
+        if self.reasons.latest:
+            return f"In this run: the F-PLC refused after it was put in. {self.reasons.latest}"
+        return (
+            "In this run: a device has read something else than what was written. The F-PLC refused nothing."
+        )
+
+    def waits_for(self, state: str) -> list[str]:
+        """What keeps the F-PLC where it stands, by what it read last. E-15, E-23, E-25c, E-52"""
+        read = self.read.get("fplc", {"LA": False, "MW03": "0000", "MW07": "0000"})
+        things = ["the fault to be taken out"] if self.misread.get("fplc") else []
+        if state != "Settle" and self.level != NONE:
+            things.append("the key to be pulled out")
+        elif state != "Settle":
+            things += [f"{name} to go off" for name in ("LA", *OUTPUTS) if read.get(name)]
+        if state == "Complete":
+            return things
+        things += [f"{name} to be zero" for name in ("MW03", "MW07") if read[name] != "0000"]
+        fplc = self.system.fplc_state
+        rest = fplc.params.T_DWELL_ms - fplc.elapsed_ms
+        return [*things, f"{rest} ms to pass"] if rest > 0 else things
 
     def says(self, name: str, word: str) -> str:
         """What a word means where it stands."""

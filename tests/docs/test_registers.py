@@ -47,7 +47,7 @@ def test_a_kind_without_row_or_file_is_found() -> None:
     page = (root() / PAGE).read_text(encoding="utf-8")
     assert problems(page, [*files(), "spec/edm/scores.toml"]) == ["spec/edm/scores.toml: 0 kinds"]
     without = [name for name in files() if not name.startswith("scenes/")]
-    assert problems(page, without) == ["scenes/*/stories.toml: no file"]
+    assert problems(page, without) == ["scenes/*/reasons.toml: no file", "scenes/*/stories.toml: no file"]
 
 
 def test_the_registers_of_the_specification_stay_short() -> None:

@@ -133,6 +133,127 @@ def test_the_first_play_of_a_visitor_succeeds(browser: Browser, page_file: Path)
         assert page.locator("[data-on=ERROR].on").count() == 0
 
 
+def box(opened: Opened, root: str = "[data-why=fplc]") -> str:
+    """What the page says about a refusal."""
+    node = opened.page.locator(root)
+    return node.inner_text() if node.is_visible() else ""
+
+
+def rounds(opened: Opened, number: int) -> None:
+    step = opened.page.get_by_role("button", name="Step: every device once")
+    for _ in range(number):
+        step.click()
+
+
+def test_an_error_says_why_and_how_to_get_out(cell: Opened) -> None:
+    page = cell.page
+    page.select_option("[data-go=profile]", "cautious")
+    assert page.locator("[data-text=dwell]").inner_text() == "500 ms" and box(cell) == ""
+    page.get_by_role("button", name="Power off and on").first.click()
+    assert box(cell).startswith("What to do: The F-PLC has just been switched on.")
+    page.get_by_role("button", name="Insert the key of level 2").press("Enter")
+    rounds(cell, 12)
+    said = box(cell)
+    assert said.startswith(
+        "Error mode: Two or more outputs of the key reader came on before the F-PLC was ready"
+    )
+    assert "EKS-KS-6 The safe controller checks" in said and "What to do: Pull the key out." in said
+    assert page.locator("#said").inner_text().count("Error mode: Two or more outputs") == 1
+    page.get_by_role("button", name="Pull the key out").press("Enter")
+    rounds(cell, 30)
+    assert box(cell).startswith("That is over: Two or more outputs")
+    page.get_by_role("button", name="Insert the key of level 2").press("Enter")
+    rounds(cell, 31)
+    assert box(cell) == ""
+    page.select_option("[data-go=profile]", "letter")
+    assert page.locator("[data-text=dwell]").inner_text() == "0 ms"
+
+
+def link_of(opened: Opened, root: str) -> str:
+    opened.page.locator(f"{root} [data-go=link]").click()
+    return str(opened.ask("() => location.hash"))
+
+
+def test_a_link_carries_the_play(cell: Opened, browser: Browser, page_file: Path) -> None:
+    page = cell.page
+    page.select_option("[data-go=profile]", "cautious")
+    assert link_of(cell, ".scene") == "" and "nothing has been played" in page.locator("#told").inner_text()
+    page.get_by_role("button", name="Insert the key of level 2").press("Enter")
+    rounds(cell, 31)
+    page.click("[data-fault=loss]")
+    rounds(cell, 2)
+    hash = link_of(cell, ".scene")
+    assert hash.endswith("&profile=cautious&do=insert%202%3B%20round%2031%3B%20fault%20loss%3B%20round%202")
+    with open_page(browser, page_file, hash) as again:
+        again.page.wait_for_function(READY)
+        assert stands(again, "[data-cell]") == stands(cell, "[data-cell]")
+        assert "Go on from here." in again.page.locator("#told").inner_text()
+        assert link_of(again, ".scene") == hash
+        again.page.get_by_role("button", name="Pull the key out").click()
+        assert stands(again, "[data-cell]") != stands(cell, "[data-cell]")
+    page.select_option("[data-go=profile]", "letter")
+
+
+@pytest.mark.parametrize(
+    ("hash", "said"),
+    [
+        ("play=robot&do=round 1", "The link cannot be played: nothing here is 'robot'."),
+        ("play=mode_selection&profile=letter&do=insert 2; dance", "'dance' is no action of this cell."),
+        ("play=mode_selection&profile=<b>x</b>&do=round 1", "there is no profile '<b>x</b>'."),
+        ("play=mode_selection&profile=letter&do=round 99999999", "it has no actions, or too many."),
+        ("play=sf_edm&do=set Activate 1; call -5", "dt_ms: expected an integer >= 0, got -5."),
+        (
+            "play=sf_edm&do=set Activate 1; call 20 3",
+            "This play came with the link: set Activate 1; call 20 3.",
+        ),
+        ("%E0%A4%A", "The address cannot be read"),
+    ],
+)
+def test_a_link_from_elsewhere_is_played_or_refused(hash: str, said: str, opened: Opened) -> None:
+    opened.ask("(hash) => { location.hash = hash; }", hash)
+    opened.page.wait_for_function(
+        "(said) => document.getElementById('told').textContent.includes(said)", arg=said
+    )
+    opened.ask("() => { history.replaceState(null, '', location.pathname); }")
+    opened.page.click("nav [data-part^=scene]")
+
+
+def test_another_profile_ends_a_story(opened: Opened) -> None:
+    page = opened.page
+    page.select_option("#choose", str(STORIES.index("stale_confirmation")))
+    page.click("#next")
+    assert page.locator("[data-cell]").count() == 2
+    page.select_option("[data-go=profile]", "cautious")
+    assert page.locator("[data-cell]").count() == 1 and page.locator("#next").is_disabled()
+    assert page.locator("[data-text=dwell]").inner_text() == "500 ms"
+    page.select_option("[data-go=profile]", "letter")
+    assert page.locator("#told").inner_text() == page.locator("#choose").input_value() == ""
+
+
+def test_the_choices_of_a_fault_are_those_in_force(cell: Opened) -> None:
+    page = cell.page
+    page.select_option("[data-choose=word]", "MW03")
+    page.select_option("[data-choose=mode]", "4")
+    page.get_by_role("button", name="Power off and on").first.click()
+    assert page.locator("[data-choose=word]").input_value() == "MW07"
+    assert page.locator("[data-choose=mode]").input_value() == "0"
+
+
+def test_an_error_of_a_block_says_why(opened: Opened) -> None:
+    page, root = opened.page, "[data-block=sf_edm] "
+    page.click("nav [data-part=blocks]")
+    page.locator(f'{root}[data-do="reset"]').click()
+    assert box(opened, f"{root}[data-why]") == ""
+    for name in ("Activate", "S_StartReset", "S_OutControl"):
+        page.locator(f'{root}[data-do="flip {name}"]').click()
+    for _ in range(4):
+        page.locator(f'{root}[data-do="call 20"]').click()
+    said = box(opened, f"{root}[data-why]")
+    assert said.startswith("Error mode: The output is off, but a contactor has not dropped out within 0 ms")
+    assert "What to do: Let both contactors drop out" in said
+    page.locator(f'{root}[data-do="reset"]').click()
+
+
 def test_the_page_can_be_used_soon(browser: Browser, page_file: Path) -> None:
     with open_page(browser, page_file) as fresh:
         fresh.page.wait_for_function(READY)
@@ -172,6 +293,26 @@ def test_a_fault_is_shown_with_what_detects_it(cell: Opened, known: dict[str, An
         assert fault["not_detected"] in about
     page.get_by_role("button", name="Take the fault out").click()
     assert page.locator("[data-about]").inner_text() == "No fault is in."
+
+
+def test_what_came_of_a_fault_is_said_beside_it(cell: Opened) -> None:
+    page = cell.page
+    noticed = page.locator("[data-at=noticed]")
+    page.get_by_role("button", name="Insert the key of level 2").click()
+    rounds(cell, 31)
+    page.select_option("[data-choose=word]", "MW03")
+    page.click("[data-fault=loss]")
+    below = "(node) => node.nextElementSibling.contains(document.querySelector('[data-about]'))"
+    assert page.locator("[data-fault=loss]").evaluate(below)
+    assert noticed.inner_text() == "In this run: until now every device has read what was written."
+    page.get_by_role("button", name="1 Automatic mode", exact=True).click()
+    rounds(cell, 6)
+    assert noticed.inner_text().endswith("The F-PLC refused nothing.")
+    page.click("[data-fault=corruption]")
+    rounds(cell, 6)
+    assert "the F-PLC refused after it was put in. MW03 is not a selection" in noticed.inner_text()
+    page.get_by_role("button", name="Take the fault out").click()
+    assert noticed.inner_text() == ""
 
 
 def test_a_fault_is_marked_where_it_is_read(cell: Opened) -> None:

@@ -16,3 +16,7 @@ function saveText(name, text) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
+// Without the event that a changed address fires: what it carries stands there already.
+function setAddress(hash) {
+  history.replaceState(null, "", hash);
+}

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
+from modeproof.simulate.program.reasons import NOTHING, Reasons
 
 CALL_MS = 20
 
@@ -23,6 +24,8 @@ class Block:
         own = self.row["parameters"]
         params = {name: take(own[name], value) for name, value in self.params.items()}
         self.device = Device(self.facts["module"] + self.id, self.facts["labelled"][self.id], params)
+        defaults = {name: of["default"] for name, of in own.items() if "default" in of}
+        self.reasons = Reasons(self.facts["reasons"].get(self.id, NOTHING), defaults | self.params)
         self.given = dict.fromkeys(self.row["inputs"], False)
         self.wrote = on_wire(self.row["outputs"], self.device.out)
         self.lines: list[dict[str, Any]] = []
@@ -37,6 +40,7 @@ class Block:
         word, _, rest = text.strip().partition(" ")
         name, _, value = rest.partition(" ")
         if word in ("set", "flip") and name in self.given:
+            self.reasons.acted(self.device.control())
             self.given[name] = value == "1" if word == "set" else not self.given[name]
         elif word == "call":
             for _ in range(int(value or 1)):
@@ -54,7 +58,9 @@ class Block:
 
     def call(self, dt_ms: int) -> None:
         """One call of the block with the switches as they are."""
+        state = self.device.control()
         out = self.device.scan(inputs_of(self.device.code, self.row["inputs"], dt_ms, self.given))
+        self.reasons.scanned(state, self.device.step, self.device.control())
         self.wrote = on_wire(self.row["outputs"], out)
         self.lines.append({"dt_ms": dt_ms, "in": dict(self.given), "out": self.wrote})
         self.clock += dt_ms
@@ -93,6 +99,7 @@ class Block:
             "on": {**lamps, **{f"in.{name}": value for name, value in self.given.items()}},
             "open": {},
             "devices": {self.id: {"state": state, "step": self.device.step, "last": self.scans > 0}},
+            "why": {self.id: self.reasons.show(state, bool(self.wrote.get("Error")), [])},
         }
 
 

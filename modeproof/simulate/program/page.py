@@ -9,12 +9,14 @@ from javascript import JSON
 
 from modeproof.simulate.program.block import Block, recorded
 from modeproof.simulate.program.by_name import module_named
+from modeproof.simulate.program.fault_box import draw_fault
+from modeproof.simulate.program.files import Files
+from modeproof.simulate.program.links import NoPlay, added, read, written
 from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
-from modeproof.simulate.program.suites import judge
 from modeproof.simulate.program.view import View
 
 FACTS: dict[str, Any] = JSON.parse(document["facts"].textContent)
-NOTHING = "No fault is in."
+PROFILE = '[data-go="profile"]'
 
 
 class Page:
@@ -25,6 +27,7 @@ class Page:
         self.player: Player | None = None
         self.running: dict[Any, Any] = {}
         self.told: Any = None
+        self.done: dict[str, list[str]] = {}
         self.keys = 0
         self.drawn_fault: dict[str, str] = {}
         self.code: dict[str, Any] = {}
@@ -41,7 +44,8 @@ class Page:
         document["next"].bind("click", lambda event: self.next())
         document["leave"].bind("click", lambda event: self.leave())
         document["run"].bind("click", lambda event: self.toggle(event.currentTarget, self.next, 1200))
-        document["vectors"].bind("change", lambda event: self.suites(list(event.target.files)))
+        files = Files(FACTS["documents"])
+        document["vectors"].bind("change", lambda event: files.suites(list(event.target.files)))
         document["log"].bind("change", lambda event: self.read_log(event.target))
 
     # ---------------------------------------------------------------------------------------------- parts
@@ -73,8 +77,20 @@ class Page:
 
     def open_free(self, name: str) -> None:
         """One cell to play freely: it has been on for a while and is ready for a key."""
-        self.open_cells(name, [{"title": "", "params": {}}])
+        self.open_cells(name, [{"title": "", "params": self.profile(name)}])
         self.act(name, "settle")
+        self.done[name] = []
+
+    def begin_anew(self, name: str) -> None:
+        """Free play with the profile that is chosen, also in the middle of a story."""
+        self.leave()
+        self.open_free(name)
+
+    def profile(self, name: str) -> dict[str, Any]:
+        """The parameters of the profile that is chosen, of each device that has profiles."""
+        field = document[f"scene-{name}"].select_one(PROFILE)
+        devices = FACTS["documents"][name]["devices"]
+        return {id: row["profiles"][field.value] for id, row in devices.items() if row["profiles"]}
 
     def open_cells(self, name: str, cells: list[dict[str, Any]]) -> None:
         """One drawing a cell, all of the same scene, each with its own parameters."""
@@ -109,7 +125,9 @@ class Page:
             button.bind("click", lambda event: self.act(name, event.currentTarget.attrs["data-do"]))
         for button in root.select("[data-go]"):
             go = button.attrs["data-go"]
-            if go != "speed":
+            if go == "profile":
+                button.bind("change", lambda event: self.begin_anew(name))
+            elif go != "speed":
                 button.bind("click", lambda event, go=go: self.go(name, go, root, event.currentTarget))
 
     # -------------------------------------------------------------------------------------------- actions
@@ -117,11 +135,17 @@ class Page:
     def act(self, name: str, text: str) -> None:
         """One action in every view of a part; what is refused is said."""
         try:
-            for view in self.views[name]:
-                view.scene.do(text)
+            self.take(name, text)
         except ValueError as error:
             self.say(f"Refused: {error}")
         self.after(name)
+
+    def take(self, name: str, text: str) -> None:
+        """One action in every view; of a free play it is remembered. Raises ValueError."""
+        for view in self.views[name]:
+            view.scene.do(text)
+        if self.player is None:
+            self.done[name] = added(self.done.get(name, []), text)
 
     def after(self, name: str) -> None:
         """Draw a part anew, and say what is new to one who listens."""
@@ -135,27 +159,12 @@ class Page:
             shown = view.shown["text"]
             for node in root.select("[data-at]"):
                 node.text = shown.get(node.attrs["data-at"], "")
-            self.draw_faults(root, view)
-
-    def draw_faults(self, root: Any, view: View) -> None:
-        """Which fault is in, and what the table says of it."""
-        active = view.scene.faults.active
-        if active == self.drawn_fault.get(root.id):
-            return
-        self.drawn_fault[root.id] = active
-        for button in root.select("[data-fault]"):
-            button.attrs["aria-pressed"] = "true" if button.attrs["data-fault"] == active else "false"
-        about = root.select_one("[data-about]")
-        about.clear()
-        rows = [fault for fault in view.facts["faults"] if fault["id"] == active]
-        for fault in rows:
-            _line(about, "In: ", f"{fault['title']}. {fault['model']}")
-            _line(about, "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
-            for fall in fault["falls"]:
-                _line(about, f"{fall['property']} fails: ", fall["needs"])
-            _line(about, "Not detected: ", fault["not_detected"])
-        if not rows:
-            _line(about, "", NOTHING)
+            for field in root.select("[data-choose]"):
+                field.value = str(getattr(view.scene.faults, field.attrs["data-choose"]))
+            active = view.scene.faults.active
+            if active != self.drawn_fault.get(root.id):
+                self.drawn_fault[root.id] = active
+                draw_fault(root, view.facts["faults"], active)
 
     def aim(self, root: Any, name: str, field: Any) -> None:
         """Where the fault is."""
@@ -171,9 +180,62 @@ class Page:
             speed = root.select_one('[data-go="speed"]')
             every = int(speed.value) if speed is not None else 100
             self.toggle(button, lambda: self.act(name, "round 1"), every)
+        elif go == "link":
+            self.link(name)
         elif go == "save":
             view = self.views[name][0]
             window.saveText(f"{name}.jsonl", view.scene.log())
+
+    def link(self, name: str) -> None:
+        """Put the play into the address of the page."""
+        try:
+            if self.player is not None:
+                raise NoPlay("only a free play has one; choose Leave first")
+            profile = document[f"scene-{name}"].select_one(PROFILE).value if name in FACTS["scenes"] else ""
+            text = written(name, profile, self.done.get(name, []), window.encodeURIComponent)
+        except NoPlay as error:
+            self.say(f"No link: {error}.")
+            return
+        window.setAddress(f"#{text}")
+        self.say("The address of this page now carries this play. Copy it: whoever opens it sees the same.")
+
+    def begin_play(self, wanted: dict[str, str]) -> None:
+        """Play what an address carries, all at once; then the user goes on."""
+        name, profile = wanted["play"], wanted.get("profile", "")
+        try:
+            actions = read(wanted.get("do", ""))
+            if name in FACTS["scenes"]:
+                field = document[f"scene-{name}"].select_one(PROFILE)
+                field.value = profile
+                if field.value != profile or not profile:
+                    field.value = "letter"
+                    raise NoPlay(f"there is no profile {profile!r}")
+                self.show_part(f"scene-{name}")
+                self.open_free(name)
+            elif name in FACTS["blocks"]:
+                self.show_part("blocks")
+                self.anew(name)
+                self.views[name][0].root.scrollIntoView()
+            else:
+                raise NoPlay(f"nothing here is {name!r}")
+            for text in actions:
+                self.take(name, text)
+        except ValueError as error:
+            self.say(f"The link cannot be played: {error}.")
+        else:
+            self.say(f"This play came with the link: {'; '.join(actions)}. Go on from here.")
+        if name in self.views:
+            self.after(name)
+
+    def anew(self, id: str) -> None:
+        """A block after power-up, with the default parameters."""
+        view = self.views[id][0]
+        view.scene.params = {}
+        view.scene.reset()
+        for field in view.root.select("[data-param]"):
+            default = view.scene.row["parameters"][field.attrs["data-param"]]["default"]
+            field.value = str(default).lower() if isinstance(default, bool) else str(default)
+        self.done[id] = []
 
     def toggle(self, button: Any, work: Any, every_ms: int) -> None:
         """Play or pause; each button plays by itself."""
@@ -204,9 +266,16 @@ class Page:
             self.begin_story(FACTS["stories"][int(value)])
 
     def follow(self) -> None:
-        """Play what the address names: #finding=E-52, or one of its runs, #finding=E-52&run=NAME."""
-        hash = window.decodeURIComponent(window.location.hash[1:])
+        """Play what the address names: #finding=E-52, one of its runs, #finding=E-52&run=NAME, or a play."""
+        try:
+            hash = window.decodeURIComponent(window.location.hash[1:])
+        except Exception as error:  # of JavaScript: the text is no encoded one
+            self.say(f"The address cannot be read: {error}")
+            return
         wanted = {name: value for name, _, value in [part.partition("=") for part in hash.split("&")]}
+        if "play" in wanted:
+            self.leave()
+            self.begin_play(wanted)
         if "finding" not in wanted:
             return
         self.leave()
@@ -306,7 +375,7 @@ class Page:
         if self.player is not None and self.told in FACTS["scenes"]:
             self.open_free(self.told)
         elif self.player is not None and self.told is not None:
-            self.views[self.told][0].scene.reset()
+            self.anew(self.told)
             _allow(self.views[self.told][0].root, True)
             self.after(self.told)
         self.player = self.told = None
@@ -317,54 +386,7 @@ class Page:
         if not keep:
             document["choose"].value = ""
 
-    # ------------------------------------------------------------------------------------ suites and logs
-
-    def suites(self, files: list[Any]) -> None:
-        """Run the chosen vector files one after the other."""
-        if not files:
-            document["progress"].text = "All files have been run."
-            return
-        file = files[0]
-        document["progress"].text = f"Reading {file.name} …"
-        window.readLines(
-            file, lambda lines: self.run_suite(lines, files), lambda why: self.unread(file, why, files)
-        )
-
-    def unread(self, file: Any, why: str, files: list[Any]) -> None:
-        """A file that is no suite is named."""
-        _verdict(file.name, "", "UNJUDGED", why)
-        self.suites(files[1:])
-
-    def run_suite(self, lines: Any, files: list[Any]) -> None:
-        """All cases of one file, in slices."""
-        try:
-            header = JSON.parse(lines[0])
-            module = FACTS["documents"][header["document"]]["module"] + header["target"]
-            code = module_named(module)
-            header["suite"], header["inputs"], header["cases"]
-        except Exception as error:  # whatever the text is; the browser's own complaint is no ValueError
-            self.unread(files[0], f"not a vector file of a device in this page: {error}", files)
-            return
-        going = judge(code, header, (JSON.parse(lines[n]) for n in range(1, len(lines))))
-
-        def slice_() -> None:
-            until = window.performance.now() + 60
-            try:
-                for verdict in going:
-                    if verdict.difference or verdict.done_cases == verdict.cases:
-                        _verdict(verdict.target, verdict.suite, verdict.word, verdict.compared())
-                        self.suites(files[1:])
-                        return
-                    if window.performance.now() > until:
-                        document["progress"].text = f"{verdict.target} {verdict.suite}: {verdict.compared()}"
-                        window.setTimeout(slice_, 0)
-                        return
-            except Exception as error:  # as above
-                self.unread(files[0], f"a case cannot be run: {error}", files)
-                return
-            self.unread(files[0], "it has fewer cases than its header says", files)
-
-        slice_()
+    # ------------------------------------------------------------------------------------ logs
 
     def read_log(self, field: Any) -> None:
         """Play a log where its device is drawn."""
@@ -414,27 +436,6 @@ def _allow(root: Any, free: bool) -> None:
     for button in root.select("[data-do], [data-go]"):
         if not button.attrs.get("data-open"):
             button.disabled = not free
-
-
-def _line(about: Any, head: str, text: str) -> None:
-    line = document.createElement("p")
-    strong = document.createElement("b")
-    strong.text = head
-    line.appendChild(strong)
-    line.appendChild(document.createTextNode(text))
-    about.appendChild(line)
-
-
-def _verdict(target: str, suite: str, word: str, compared: str) -> None:
-    """A row of the table of verdicts."""
-    document["verdicts"].hidden = False
-    row = document.createElement("tr")
-    for text in (target, suite, word, compared):
-        cell = document.createElement("td")
-        cell.text = text
-        row.appendChild(cell)
-    row.children[2].class_name = "good" if word == "CONFORMS" else "bad"
-    document["verdicts"].select_one("tbody").appendChild(row)
 
 
 PAGE = Page()

@@ -18,6 +18,7 @@ class View:
         self.hidden = _by(root, "data-shown")
         self.wires = _by(root, "data-wire")
         self.devices = _by(root, "data-device")
+        self.whys = root.select("[data-why]")
         self.shown: dict[str, Any] = {"text": {}, "on": {}, "open": {}, "devices": {}, "misread": []}
         self.drawn: dict[tuple[str, str], Any] = {}
         self.changed: list[Any] = list(root.select(".changed"))
@@ -63,7 +64,33 @@ class View:
         for name, of in shown["devices"].items():
             for node in self.devices.get(name, []):
                 self._device(node, name, of)
+        for node in self.whys:
+            of = shown.get("why", {}).get(node.attrs["data-why"], {"kind": ""})
+            if self._why(node, of) and of["say"]:
+                news.append(f"{of['head']}: {of['say'][0]}")
         return ". ".join(news)
+
+    def _why(self, node: Any, of: dict[str, Any]) -> bool:
+        """Say why a device refuses and how to get out; whether the reason is new."""
+        before = self.drawn.get(("why", ""), {})
+        if before == of:
+            return False
+        self.drawn[("why", "")] = of
+        node.clear()
+        node.hidden = not of["kind"]
+        node.class_name = f"why {of['kind']}"
+        if not of["kind"]:
+            return False
+        for head, said in ((of["head"], of["say"]), ("What to do", of["way"])):
+            if said:
+                _line(node, "p", f"{head}: ", said[0])
+                listed = document.createElement("ul")
+                for id in said[1]:
+                    _line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
+                node.appendChild(listed)
+        if of["waits"]:
+            _line(node, "p", "", of["waits"])
+        return bool(before.get("say") != of["say"] or before.get("kind") != of["kind"])
 
     def _put(self, kind: str, node: Any, value: Any) -> None:
         if kind == "text":
@@ -97,12 +124,17 @@ class View:
         listed = node.select_one('[data-part-of="clauses"]')
         listed.innerHTML = ""
         for id in self.facts["devices"][name]["steps"].get(of["step"], []):
-            line = document.createElement("li")
-            head = document.createElement("b")
-            head.text = f"{id} "
-            line.appendChild(head)
-            line.appendChild(document.createTextNode(self.facts["texts"].get(id, "")))
-            listed.appendChild(line)
+            _line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
+
+
+def _line(parent: Any, kind: str, head: str, text: str) -> None:
+    line = document.createElement(kind)
+    if head:
+        strong = document.createElement("b")
+        strong.text = head
+        line.appendChild(strong)
+    line.appendChild(document.createTextNode(text))
+    parent.appendChild(line)
 
 
 def _by(root: Any, attribute: str) -> dict[str, list[Any]]:

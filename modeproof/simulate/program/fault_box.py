@@ -1,0 +1,40 @@
+"""The box beside the button of a fault: what detects it, by the table of faults, or that nothing does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from browser import document
+
+NOTHING = "No fault is in."
+
+
+def draw_fault(root: Any, faults: list[dict[str, Any]], active: str) -> None:
+    """Draw the box anew: `active` is the id of the fault, or empty."""
+    for button in root.select("[data-fault]"):
+        button.attrs["aria-pressed"] = "true" if button.attrs["data-fault"] == active else "false"
+    about = root.select_one("[data-about]")
+    about.clear()
+    frame = about.parentElement
+    pressed = root.select_one(f'[data-fault="{active}"]') if active else None
+    if pressed is None:
+        frame.parentElement.insertBefore(frame, frame.parentElement.firstElementChild)
+    else:
+        pressed.parentElement.insertBefore(frame, pressed.nextElementSibling)
+    for fault in [fault for fault in faults if fault["id"] == active]:
+        _line(about, "In: ", f"{fault['title']}. {fault['model']}")
+        _line(about, "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
+        for fall in fault["falls"]:
+            _line(about, f"{fall['property']} fails: ", fall["needs"])
+        _line(about, "Not detected: ", fault["not_detected"])
+    if not active:
+        _line(about, "", NOTHING)
+
+
+def _line(about: Any, head: str, text: str) -> None:
+    line = document.createElement("p")
+    strong = document.createElement("b")
+    strong.text = head
+    line.appendChild(strong)
+    line.appendChild(document.createTextNode(text))
+    about.appendChild(line)
