@@ -15,6 +15,7 @@ from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
 from modeproof.simulate import reasons, recorded
 from modeproof.simulate.step_marks import labelled
+from modeproof.suites.demands import declare, declare_parameters
 
 REFERENCE = "refimpl"
 
@@ -33,7 +34,7 @@ def of_document(document: Document) -> dict[str, Any]:
             citation = cited.get(f"{device.module}!{step}")
             steps[step] = [*citation.clauses, *citation.findings] if citation else []
             used |= {*steps[step]}
-        devices[device.id] = {**_device(device), "steps": steps}
+        devices[device.id] = {**_device(document, device), "steps": steps}
         copies[device.id] = _copy(document, device)
     told = reasons.of_document(document, {device: row["steps"] for device, row in devices.items()})
     used |= reasons.cited(told)
@@ -42,6 +43,7 @@ def of_document(document: Document) -> dict[str, Any]:
     texts = {clause.id: clause.text for clause in document.clauses if clause.id in used}
     texts |= {finding.id: finding.title for finding in document.findings if finding.id in used}
     return {
+        "document": document.name,
         "title": document.about.title,
         "module": f"{REFERENCE}.{document.name}.",
         "devices": devices,
@@ -49,6 +51,7 @@ def of_document(document: Document) -> dict[str, Any]:
         "readings": _readings(document),
         "reasons": told,
         "texts": texts,
+        "clauses": [clause.id for clause in document.clauses if clause.id in used],
         "says": {} if traces is None else {name: of.says for of in traces.words for name in of.signals},
         "faults": [
             {
@@ -67,11 +70,19 @@ def of_document(document: Document) -> dict[str, Any]:
     }
 
 
-def _device(device: Device) -> dict[str, Any]:
+def _device(document: Document, device: Device) -> dict[str, Any]:
     groups = {"inputs": device.inputs, "outputs": device.outputs, "parameters": device.parameters}
     rows = {name: {of.name: _signal(of) for of in group.values()} for name, group in groups.items()}
     profiles = profiles_of(device)
-    return {"title": device.title, "published": device.published, "profiles": profiles, **rows}
+    modes = list(document.interface.constants.get("MODES", ()))
+    declared = {
+        "inputs": declare(device.inputs, modes),
+        "outputs": declare(device.outputs, modes),
+        "parameters": declare_parameters(device, modes),
+        **({"profiles": profiles} if profiles else {}),
+    }
+    about = {"title": device.title, "profiles": profiles, "states": list(device.states)}
+    return {**about, "published": device.published, "vectors": declared, **rows}
 
 
 def _signal(of: Signal) -> dict[str, Any]:

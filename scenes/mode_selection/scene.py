@@ -12,6 +12,7 @@ from typing import Any
 
 from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
 from modeproof.simulate.program.reasons import NOTHING, Reasons
+from modeproof.simulate.program.vectors import played
 from refimpl.mode_selection import eks, hmi, key_flows
 from refimpl.mode_selection.code_tables import MODE_NAMES, NONE, RE, decode, encode
 from scenes.mode_selection.faults import KINDS, OUTPUTS, RANGE_OF, Faults
@@ -48,6 +49,7 @@ class Scene:
         self.system = key_flows.System(*states, *outs)
         self.faults = Faults()
         self.lines: list[dict[str, Any]] = []
+        self.took: list[list[str]] = []
         self.wrote = {name: on_wire(self.rows[name]["outputs"], self.devices[name].out) for name in self.rows}
         self.since = dict.fromkeys(self.rows, 0)
         self.read: dict[str, Any] = {}
@@ -181,6 +183,7 @@ class Scene:
         self.read[name] = read = on_wire(self.rows[name]["inputs"], inputs)
         self.wrote[name] = on_wire(self.rows[name]["outputs"], out)
         self.lines.append({"device": name, "dt_ms": dt_ms, "in": read, "out": self.wrote[name]})
+        self.took.append([device.step, device.control()])
         self.since[name] += dt_ms
         self.clock = max(self.since.values())
         self.scans += 1
@@ -208,6 +211,12 @@ class Scene:
         }
         head = {"target": "key_flows", "params": params}
         return "".join([json.dumps(row, separators=(",", ":")) + "\n" for row in [head, *self.lines]])
+
+    def vectors(self, name: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """What one device did since power-up, as a test case. Raises ValueError where it did nothing."""
+        own = [at for at, line in enumerate(self.lines) if line["device"] == name]
+        lines, took = [self.lines[at] for at in own], [self.took[at] for at in own]
+        return played(self.facts, name, self.params.get(name, {}), lines, took)
 
     @staticmethod
     def params_of(header: dict[str, Any]) -> dict[str, Any]:

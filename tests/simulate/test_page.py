@@ -12,6 +12,7 @@ import pytest
 from playwright.sync_api import Browser
 
 from modeproof.simulate.program.device import Device, take
+from modeproof.suites.lint import lint
 from scenes.mode_selection.scene import ROUND, Scene
 from tests.report.browser.opened import WAIT_MS, Opened, open_page
 from tests.simulate.conftest import READY, ROOT, SCENE, scenes_of
@@ -364,6 +365,25 @@ def test_a_saved_log_is_played_again(cell: Opened, tmp_path: Path) -> None:
     page.click("#leave")
 
 
+def test_a_play_is_saved_as_test_vectors(cell: Opened, tmp_path: Path) -> None:
+    page = cell.page
+    page.get_by_role("button", name="Insert the key of level 1").click()
+    rounds(cell, 30)
+    file = tmp_path / "played.jsonl"
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save as test vectors of fplc").click()
+    saved.value.save_as(file)
+    assert lint(file) == [] and saved.value.suggested_filename == "fplc-played.jsonl"
+    target, suite, word, compared = verdict(cell, file)
+    assert (target, suite, word) == ("fplc", "played", "CONFORMS")
+    assert compared == "1 of 1 cases, 31 scans"
+    page.click("nav [data-part=blocks]")
+    card = "[data-block=sf_guard_locking] "
+    page.click(f'{card}[data-do="reset"]')
+    page.click(f"{card}[data-go=vectors]")
+    assert page.locator("#told").inner_text() == "No test vectors: sf_guard_locking has not been called yet."
+
+
 def reached(about: dict[str, Any], header: dict[str, Any], case: dict[str, Any]) -> set[tuple[Any, ...]]:
     """Each way of a case from state to state, and the outputs that changed on it."""
     target, kinds = header["target"], header["parameters"]
@@ -456,3 +476,38 @@ def test_everyone_can_use_the_page_down_to_a_phone(part: str, opened: Opened) ->
         page.set_viewport_size({"width": width, "height": 900})
         assert opened.ask("() => document.documentElement.scrollWidth") <= width
     page.set_viewport_size({"width": 1280, "height": 900})
+
+
+TAB_TO = """(words) => {
+    const node = document.activeElement;
+    return (node.getAttribute("aria-label") || node.textContent).trim() === words;
+}"""
+
+
+def tab_to(opened: Opened, words: str) -> None:
+    """Press Tab until the focus is on what has this name, as one who has no mouse does."""
+    for _ in range(80):
+        opened.page.keyboard.press("Tab")
+        if opened.ask(TAB_TO, words):
+            return
+    raise AssertionError(f"Tab does not lead to {words}")
+
+
+def test_a_phone_and_a_keyboard_are_enough_for_an_error(cell: Opened) -> None:
+    page = cell.page
+    page.set_viewport_size({"width": 390, "height": 900})
+    page.select_option("[data-go=profile]", "cautious")
+    tab_to(cell, "Power off and on")
+    page.keyboard.press("Enter")
+    tab_to(cell, "Insert the key of level 2")
+    page.keyboard.press("Enter")
+    rounds(cell, 12)
+    tab_to(cell, "Take the fault out")
+    tab_to(cell, "Two outputs are wired to each other's inputextra wire; detected by nothing")
+    page.keyboard.press("Space")
+    assert "Detected by: nothing" in page.locator("[data-about]").inner_text()
+    assert box(cell).startswith("Error mode: ")
+    assert cell.ask("() => document.documentElement.scrollWidth") <= 390
+    assert cell.inaccessible() == []
+    page.set_viewport_size({"width": 1280, "height": 900})
+    page.select_option("[data-go=profile]", "letter")

@@ -20,3 +20,8 @@ function saveText(name, text) {
 function setAddress(hash) {
   history.replaceState(null, "", hash);
 }
+function digestOf(text, done, failed) {
+  if (!window.crypto || !crypto.subtle) return failed("this browser computes no SHA-256 for a file");
+  crypto.subtle.digest("SHA-256", new TextEncoder().encode(text)).then((bytes) =>
+    done([...new Uint8Array(bytes)].map((byte) => byte.toString(16).padStart(2, "0")).join("")), (error) => failed(String(error)));
+}

@@ -7,6 +7,7 @@ from typing import Any
 
 from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
 from modeproof.simulate.program.reasons import NOTHING, Reasons
+from modeproof.simulate.program.vectors import played
 
 CALL_MS = 20
 
@@ -29,6 +30,7 @@ class Block:
         self.given = dict.fromkeys(self.row["inputs"], False)
         self.wrote = on_wire(self.row["outputs"], self.device.out)
         self.lines: list[dict[str, Any]] = []
+        self.took: list[list[str]] = []
         self.clock = self.scans = 0
         self.differs = ""
 
@@ -63,6 +65,7 @@ class Block:
         self.reasons.scanned(state, self.device.step, self.device.control())
         self.wrote = on_wire(self.row["outputs"], out)
         self.lines.append({"dt_ms": dt_ms, "in": dict(self.given), "out": self.wrote})
+        self.took.append([self.device.step, self.device.control()])
         self.clock += dt_ms
         self.scans += 1
 
@@ -70,6 +73,10 @@ class Block:
         """Every call since power-up as JSON Lines, with the parameters in front."""
         rows = [{"target": self.id, "params": self.params}, *self.lines]
         return "".join([json.dumps(row, separators=(",", ":")) + "\n" for row in rows])
+
+    def vectors(self, name: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Every call since power-up as a test case. Raises ValueError where there is none."""
+        return played(self.facts, name, self.params, self.lines, self.took)
 
     def begin_log(self, header: dict[str, Any]) -> None:
         """Power up with the parameters of a log. Raises ValueError for a log of something else."""

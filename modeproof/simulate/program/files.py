@@ -9,9 +9,24 @@ from javascript import JSON
 
 from modeproof.simulate.program.by_name import module_named
 from modeproof.simulate.program.suites import judge
+from modeproof.simulate.program.vectors import hashed, written
 
 SLICE_MS = 60
 """So long a suite runs before the page is drawn again."""
+
+
+def save_vectors(scene: Any, id: str, say: Any) -> None:
+    """Save what a device did as a vector file of one case; say why where that cannot be."""
+    try:
+        header, case = scene.vectors(id)
+    except ValueError as error:
+        say(f"No test vectors: {error}.")
+        return
+    window.digestOf(
+        hashed(case),
+        lambda digest: window.saveText(f"{id}-played.jsonl", written(header, case, digest)),
+        lambda why: say(f"No test vectors: {why}."),
+    )
 
 
 class Files:

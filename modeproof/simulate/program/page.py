@@ -10,7 +10,7 @@ from javascript import JSON
 from modeproof.simulate.program.block import Block, recorded
 from modeproof.simulate.program.by_name import module_named
 from modeproof.simulate.program.fault_box import draw_fault
-from modeproof.simulate.program.files import Files
+from modeproof.simulate.program.files import Files, save_vectors
 from modeproof.simulate.program.links import NoPlay, added, read, written
 from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
 from modeproof.simulate.program.view import View
@@ -182,6 +182,8 @@ class Page:
             self.toggle(button, lambda: self.act(name, "round 1"), every)
         elif go == "link":
             self.link(name)
+        elif go == "vectors":
+            save_vectors(self.views[name][0].scene, button.attrs["data-of"], self.say)
         elif go == "save":
             view = self.views[name][0]
             window.saveText(f"{name}.jsonl", view.scene.log())
