@@ -327,6 +327,11 @@ class Scene:
         return f"{key}The user touched mode {self.touched} {confirmed}."
 
 
+def header_of(params: dict[str, Any]) -> dict[str, Any]:
+    """The header of a log of the cell in which the F-PLC has these parameters (wire values)."""
+    return {"target": "key_flows", "params": {"fplc": params}}
+
+
 def meaning(facts: dict[str, Any], name: str, word: str) -> str:
     """What a word means where it stands."""
     mode = decode(RANGE_OF[name], int(word, 16))

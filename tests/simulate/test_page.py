@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import itertools
 import json
 import os
 from pathlib import Path
@@ -382,6 +383,30 @@ def test_a_play_is_saved_as_test_vectors(cell: Opened, tmp_path: Path) -> None:
     page.click(f'{card}[data-do="reset"]')
     page.click(f"{card}[data-go=vectors]")
     assert page.locator("#told").inner_text() == "No test vectors: sf_guard_locking has not been called yet."
+
+
+@pytest.mark.parametrize(("id", "root"), [("fplc", "[data-cell]"), ("sf_edm", "[data-block=sf_edm]")])
+def test_a_case_of_a_vector_file_is_played(id: str, root: str, opened: Opened, tmp_path: Path) -> None:
+    page, file = opened.page, tmp_path / "difference.jsonl"
+    with gzip.open(ROOT / f"vectors/{id}/sequences.jsonl.gz", "rt", encoding="utf-8") as packed:
+        header, case = (json.loads(line) for line in itertools.islice(packed, 2))
+    for value, differs in ((False, False), (True, True)):
+        if value:
+            name = "ERROR" if id == "fplc" else "Error"
+            case["scans"][0]["out"][name] = True
+        file.write_text(f"{json.dumps(header)}\n{json.dumps(case)}\n", encoding="utf-8")
+        page.click("nav [data-part=suites]")
+        page.set_input_files("#log", [])
+        page.set_input_files("#log", file)
+        intro = f"A log of {len(case['scans'])} scans"
+        page.wait_for_function(
+            "(intro) => document.getElementById('told').textContent.startsWith(intro)", arg=intro
+        )
+        for _ in case["scans"]:
+            page.click("#next")
+        assert "The log is at its end." in page.locator("#told").inner_text()
+        assert bool(page.locator(f"{root} [data-text=differs]").inner_text()) == differs
+        page.click("#leave")
 
 
 def reached(about: dict[str, Any], header: dict[str, Any], case: dict[str, Any]) -> set[tuple[Any, ...]]:

@@ -11,9 +11,10 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.simulate.program.block import Block
+from modeproof.simulate.program.play import log_of_case
 from modeproof.simulate.program.vectors import hashed, written
 from modeproof.suites.lint import lint
-from scenes.mode_selection.scene import Scene
+from scenes.mode_selection.scene import Scene, header_of
 from tests.simulate.conftest import SCENE
 from tests.simulate.test_program import CHANGE
 
@@ -58,3 +59,19 @@ def test_a_play_of_a_block_is_a_case(tmp_path: Path, known: dict[str, Any]) -> N
     assert header["scans"] == 4 and list(case["scans"][1]["in"]) == ["S_EDM1"]
     path.write_text(path.read_text().replace('"S_EDM1":true', '"S_EDM2":true'), encoding="utf-8")
     assert "does not belong to these inputs" in lint(path)[0]
+
+
+def test_a_case_is_played_as_a_log(known: dict[str, Any]) -> None:
+    scene, again = Scene(known[SCENE], {}), Scene(known[SCENE], {})
+    for action in CHANGE:
+        scene.do(action)
+    header, case = scene.vectors("fplc")
+    _, *rows = log_of_case(header, case, "fplc")
+    for text, differs in (("", ""), ("MSO_4", "MSO_4 is False, the log has True")):
+        again.begin_log(header_of(case["params"]))
+        for row in rows:
+            again.play({**row, "out": {**row["out"], **({text: True} if text else {})}})
+        assert (again.show()["on"]["MSO_1"], len(again.lines)) == (True, len(rows))
+        assert differs in again.differs and bool(again.differs) == bool(differs)
+    with pytest.raises(ValueError, match="asks for a refusal"):
+        log_of_case(header, {**case, "scans": [{"refuse": "no"}]})

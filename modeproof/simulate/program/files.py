@@ -8,6 +8,7 @@ from browser import document, window
 from javascript import JSON
 
 from modeproof.simulate.program.by_name import module_named
+from modeproof.simulate.program.play import log_of_case
 from modeproof.simulate.program.suites import judge
 from modeproof.simulate.program.vectors import hashed, written
 
@@ -27,6 +28,23 @@ def save_vectors(scene: Any, id: str, say: Any) -> None:
         lambda digest: window.saveText(f"{id}-played.jsonl", written(header, case, digest)),
         lambda why: say(f"No test vectors: {why}."),
     )
+
+
+def as_log(rows: list[Any], facts: dict[str, Any], scenes: dict[str, Any]) -> list[Any]:
+    """The rows of a log; of a vector file its first case, as a log. Raises ValueError.
+
+    `scenes` are the modules of the documents that are drawn as one cell.
+    """
+    header = rows[0]
+    if "document" not in header:
+        return rows
+    id = header["target"]
+    if header["document"] not in scenes:
+        return log_of_case(header, rows[1])
+    if id not in facts[header["document"]]["devices"]:
+        raise ValueError(f"nothing here is {id!r}")
+    log = log_of_case(header, rows[1], id)
+    return [scenes[header["document"]].header_of(log[0]["params"]), *log[1:]]
 
 
 class Files:

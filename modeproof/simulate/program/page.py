@@ -10,7 +10,7 @@ from javascript import JSON
 from modeproof.simulate.program.block import Block, recorded
 from modeproof.simulate.program.by_name import module_named
 from modeproof.simulate.program.fault_box import draw_fault
-from modeproof.simulate.program.files import Files, save_vectors
+from modeproof.simulate.program.files import Files, as_log, save_vectors
 from modeproof.simulate.program.links import NoPlay, added, read, written
 from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
 from modeproof.simulate.program.view import View
@@ -399,7 +399,7 @@ class Page:
         """Power up with the log's parameters; each step is one line."""
         self.leave()
         try:
-            rows = [JSON.parse(lines[n]) for n in range(len(lines))]
+            rows = as_log([JSON.parse(line) for line in lines], FACTS["documents"], self.code)
             self.open_blocks()
             name = self.owner_of(rows[0])
             view = self.views[name][0]

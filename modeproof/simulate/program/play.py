@@ -108,3 +108,20 @@ def of_log(rows: list[dict[str, Any]], play: Callable[[dict[str, Any]], str]) ->
 
     end = "The log is at its end."
     return Player(f"A log of {len(rows)} scans. Press Next or Play.", [step(row) for row in rows], end)
+
+
+def log_of_case(header: dict[str, Any], case: dict[str, Any], device: str = "") -> list[dict[str, Any]]:
+    """A case of a vector file as a log: every scan whole, what is expected as what was written.
+
+    `device` is named in each line of a log of several. Raises ValueError for a case that asks for a refusal.
+    """
+    rows: list[dict[str, Any]] = [{"target": header["target"], "params": case["params"]}]
+    named = {"device": device} if device else {}
+    inputs: dict[str, Any] = {}
+    outputs: dict[str, Any] = {}
+    for scan in case["scans"]:
+        if "refuse" in scan:
+            raise ValueError("this case asks for a refusal, which nothing here can give")
+        inputs, outputs = {**inputs, **scan["in"]}, {**outputs, **scan["out"]}
+        rows.append({**named, "dt_ms": scan["dt_ms"], "in": inputs, "out": outputs})
+    return rows
