@@ -8,7 +8,7 @@ import contextlib
 import gzip
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -26,11 +26,14 @@ from modeproof.registers.files import read_toml
 from modeproof.registers.killers import load_killers, stamps_of
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import check_pins, load_pins, repin
+from modeproof.registers.refuting import load_refuting
+from modeproof.registers.refuting import stamps_of as refuting_stamps
 from modeproof.registers.replay import has_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.vector_files import ROOM, unfit
 from modeproof.simulate.recorded import known, record, unrecorded
+from modeproof.strength.refute import judge_refuting
 from modeproof.suites.build import make_graphs, published, ready_suite, suite_file
 from modeproof.suites.builtin_comparison import compare_run, difference_text
 from modeproof.suites.kinds import SUITES
@@ -63,17 +66,19 @@ class Stale:
 
     pins: tuple[str, ...] = ()
     killers: tuple[str, ...] = ()
+    refuted: tuple[str, ...] = ()
     targets: tuple[str, ...] = ()
     stories: tuple[str, ...] = ()
     page: tuple[str, ...] = ()
 
     def __bool__(self) -> bool:
-        return any((self.pins, self.killers, self.targets, self.stories, self.page))
+        return any((self.pins, self.killers, self.refuted, self.targets, self.stories, self.page))
 
     def __str__(self) -> str:
         parts = {
             "pins": self.pins,
             "edits": self.killers,
+            "edits of the code": self.refuted,
             "vectors": self.targets,
             "stories": self.stories,
             "page": self.page,
@@ -105,18 +110,24 @@ def stale_of(place: Path, name: str) -> Stale:
     tables = ("checked.", "theorems.")
     pins = [one.place for one in check_pins(document, sources) if one.place.startswith(tables)]
     stamps = stamps_of(document, sources, load_killers(place, name))
-    known = load_pins(document).killers
-    judged = {edit for edit, stamp in stamps.items() if known.get(edit) == stamp}
-    killers = [edit for edit in (*stamps, *(known.keys() - stamps.keys())) if edit not in judged]
+    refuting = refuting_stamps(document, sources, load_refuting(place, name))
+    known = load_pins(document)
     targets = [target for target, of in published(place).items() if of == name]
     page = [one.file for one in check_document_page(document, sources)]
     return Stale(
         tuple(pins),
-        tuple(killers),
+        _moved(stamps, known.killers),
+        _moved(refuting, known.refuted),
         tuple(target for target in targets if unfit(place, target)),
         tuple(unrecorded(document)),
         tuple(dict.fromkeys(page)),
     )
+
+
+def _moved(stamps: Mapping[str, object], known: Mapping[str, str]) -> tuple[str, ...]:
+    """The edits that were not judged on the present text, and those of which only the stamp is left."""
+    judged = {edit for edit, stamp in stamps.items() if known.get(edit) == stamp}
+    return tuple(edit for edit in (*stamps, *(known.keys() - stamps.keys())) if edit not in judged)
 
 
 def renew_document(work: Renewal, stale: Stale) -> None:
@@ -124,6 +135,7 @@ def renew_document(work: Renewal, stale: Stale) -> None:
     _accept(work, stale)
     _pins(work, stale)
     _killers(work, stale)
+    _refuted(work, stale)
     _vectors(work, stale)
     _stories(work, stale)
     _page(work)
@@ -238,6 +250,17 @@ def _killers(work: Renewal, stale: Stale) -> None:
         said = "with its edit in killers.toml this property holds all the same, so it says nothing:"
         raise Refused("\n".join([said, *lost, "undo what weakened it, or give it another edit"]))
     work.moved.append(f"{work.name}: {len(stale.killers)} edits judged anew, each breaks its property")
+
+
+def _refuted(work: Renewal, stale: Stale) -> None:
+    """Ask the theorems of the edits of the code that were judged on another text, or of other theorems."""
+    if not stale.refuted:
+        return
+    lost = judge_refuting(work.tree, work.name, False, work.progress.say)
+    if lost:
+        said = "these theorems hold of the code with the edit that is to refute them, so they say nothing:"
+        raise Refused("\n".join([said, *lost, "undo what weakened them, or give them another edit"]))
+    work.moved.append(f"{work.name}: {len(stale.refuted)} edits of the code judged anew, each refutes")
 
 
 def _vectors(work: Renewal, stale: Stale) -> None:

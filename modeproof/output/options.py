@@ -82,10 +82,16 @@ def add_options(
 
 
 def carried_out(args: argparse.Namespace) -> Outcome:
-    """Judge, print, and write what the options ask for. Raises Unjudged; then the record says so as well."""
-    found, error = _judged(args)
+    """Judge, write what the options ask for, and then print. Raises Unjudged; the record says so as well.
+
+    What is said on standard output is held back until all is written: whoever reads a verdict has its files.
+    """
+    held = io.StringIO()
+    with contextlib.redirect_stdout(held):
+        found, error = _judged(args)
     if error is not None:
         raise error
+    print(held.getvalue(), end="", flush=True)
     return found
 
 

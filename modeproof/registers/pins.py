@@ -3,7 +3,7 @@
 A run's counts do not change when a property is weakened, and a theorem proves whatever its text says. So
 each name that a cfg checks and each theorem has a hash of its definition and of what that refers to. Comments
 and the layout of Python are left out. A hash moves only with a reason. Beside them stand the stamps of
-modeproof.registers.killers.
+modeproof.registers.killers and of modeproof.registers.refuting.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ Texts = Mapping[str, str]
 
 HEADER = """\
 # What each checked name (TLA+) and each theorem (Python) says: a hash of its text and of what that refers to.
-# Of each edit (killers.toml): a hash of the text on which it broke its property. `modeproof renew` writes it.
+# Of each edit (killers.toml, `refuted` of the proofs): a hash of the text on which it was judged.
+# `modeproof renew` writes it.
 """
 _FAIR = re.compile(r"\b[WS]F_")
 """Fairness is part of what a specification says, and no step shows it."""
@@ -46,12 +47,13 @@ _SUBSCRIPT = re.compile(r"\]_(?:\w+|<<.*?>>)", re.DOTALL)
 
 
 class Pins(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The file: by name the hash of each checked definition and theorem, and the stamp of each edit."""
+    """The file: by name the hash of each checked definition and theorem, and the stamps of the edits."""
 
     document: str
     checked: dict[str, Digest] = {}
     theorems: dict[str, Digest] = {}
     killers: dict[str, Digest] = {}
+    refuted: dict[str, Digest] = {}
 
     def of(self, table: str) -> dict[str, str]:
         """One of the two tables."""

@@ -17,6 +17,7 @@ from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.pins import check_pins
 from modeproof.registers.readings import check_readings, check_tops
+from modeproof.registers.refuting import check_refuting
 from modeproof.registers.responses import check_responses
 from modeproof.registers.rooms import check_imports, check_no_document_known, check_order
 from modeproof.registers.rows import Document, Problem
@@ -61,6 +62,7 @@ def judge(document: Document) -> Judgement:
         *check_names(document, sources),
         *check_pins(document, sources),
         *check_killers(document, sources),
+        *check_refuting(document, sources),
     ]
     count = sum(len(citation.clauses) + len(citation.findings) for citation in cited)
     falls = Counter(found.kind for found in ways_to_fall(document, sources).values())

@@ -28,6 +28,7 @@ from modeproof.strength.campaign import (
     unexplained,
 )
 from modeproof.strength.mutant import Mutant, diff
+from modeproof.strength.refute import judge_refuting
 from modeproof.strength.register import code_path, edited, load_strength, path_of
 from modeproof.strength.results import read_results
 from modeproof.tlc.killers import judge_killers
@@ -62,7 +63,8 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--killers",
         action="store_true",
-        help="judge instead the edits of killers.toml whose stamps are of another text (--complete: all)",
+        help="judge instead the edits that are to break each property (spec: killers.toml) or to refute each "
+        "theorem (impl: strength.toml), where their stamps are of another text (--complete: all)",
     )
     parser.add_argument(
         "--judge",
@@ -103,17 +105,22 @@ def _mutate(args: argparse.Namespace) -> int:
 
 
 def _killers(place: Path, kind: str, args: argparse.Namespace) -> int:
-    """Judge the edit of each property that is to break it."""
-    if kind != "spec":
-        raise Unjudged("--killers speaks of the specification: modeproof mutate spec --killers")
+    """Judge the edits that are to break each property, or to refute each theorem."""
+    if kind == "vectors":
+        raise Unjudged("--killers asks properties (spec) or theorems (impl), and no vectors")
     chosen = chosen_documents(place, [args.document] if args.document else None)
     status = 0
     with only_one(place):
-        tools = find_toolchain()
+        tools = find_toolchain() if kind == "spec" else None
         for document in chosen:
             try:
-                if judge_killers(place, document, tools, args.complete, print):
-                    status = max(status, EXIT_NOT_AS_EXPECTED)
+                if tools is not None:
+                    lost = [*judge_killers(place, document, tools, args.complete, print)]
+                else:
+                    with needing_solvers():
+                        lost = judge_refuting(place, document, args.complete, print)
+                    print("".join(f"{line}\n" for line in lost), end="")
+                status = max(status, EXIT_NOT_AS_EXPECTED if lost else 0)
             except Unjudged as error:  # the other documents are judged all the same
                 print(error.message, file=sys.stderr)
                 status = EXIT_UNJUDGED

@@ -17,6 +17,7 @@ import msgspec
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.files import read_toml
 from modeproof.registers.load import load_interface
+from modeproof.registers.refuting import Edit
 from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.typed import Count, Entry, Name, Names, RunId, SomeNames, Text, typed
 from modeproof.strength.operators import Rule
@@ -124,6 +125,8 @@ class _File(Entry, frozen=True):
     rejudged: tuple[Rejudged, ...] = ()
     survivor: tuple[Explained, ...] = ()
     unreached: tuple[_Unreached, ...] = ()
+    refuted: dict[str, Edit] = msgspec.field(default_factory=dict)
+    by_construction: dict[str, Text] = msgspec.field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ def judge_program(args: argparse.Namespace) -> Outcome:
     judgement = judgement_of(product, assumed, latency, vectors, first_s, tell)
     judgement.brief = True
     judgement.at_once = lambda broken, asked: print(
-        following.at_once(broken, asked.id, asked.clauses), flush=True
+        following.at_once(broken, asked.id, asked.clauses), file=sys.stderr, flush=True
     )
     followed, same = Followed(product, judgement, judgement.all()), None
     if followed.word == "UNKNOWN":

@@ -218,7 +218,7 @@ class _Trial:
 def claims(item: Theorem) -> Iterator[Query]:
     """What the theorem says must have no counterexample; controls are not asked of a copy."""
     try:
-        for query in item.build():
+        for query in item.build(*item.rows()):
             if query.expected == "unsat":
                 yield query
     except (

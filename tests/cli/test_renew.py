@@ -174,6 +174,10 @@ REFUSED = {
         (PROOF, "return TRUE, one.inputs.BeaconLit", "return TRUE, one.inputs.OpenRequest"),
         "the code does not do what a theorem says now:",
     ),
+    "a theorem that its edit refutes no more": (
+        (PROOF, "return TRUE, one.inputs.BeaconLit", "return TRUE, TRUE"),
+        "these theorems hold of the code with the edit that is to refute them, so they say nothing:",
+    ),
     "a property that its edit breaks no more": (
         (
             GATE,

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import TREE
 from modeproof.kit import __main__ as kit
 from modeproof.output.diagram import as_svg, columns_of, latest, rows_of
@@ -174,6 +175,17 @@ def test_a_form_that_cannot_be_written_is_one_line(wrong: Path, capfd: pytest.Ca
             assert main(["prove-program", "edm.st", "--target", "sf_edm", option, place]) == 2
             said = f"modeproof: {Path(place)}: cannot be written: {CAUSES[place]}\n"
             assert capfd.readouterr() == ("", said)
+
+
+def test_a_verdict_is_said_after_its_files_are_written(
+    wrong: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, text: str) -> None:
+        raise Unjudged(f"{path}: cannot be written: No space left on device")
+
+    monkeypatch.setattr("modeproof.output.options.write_text", full)
+    assert main(["prove-program", "edm.st", "--target", "sf_edm", "--markdown", "a.md"]) == 2
+    assert capfd.readouterr() == ("", "modeproof: a.md: cannot be written: No space left on device\n")
 
 
 def test_the_kit_alone_writes_to_standard_output(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

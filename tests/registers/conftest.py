@@ -243,6 +243,10 @@ def _shut(state: State) -> State:
 ''',
     "proofs/__init__.py": "",
     "proofs/door/__init__.py": "",
+    "proofs/door/strength.toml": """
+[by_construction]
+the_bolt_moves = "A toy: nothing proves it."
+""",
     "proofs/door/bolt.py": '''
 from proofs.theorem import theorem
 
