@@ -22,12 +22,12 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
 SAFETY = tomllib.loads((FOLDER / "safety.toml").read_text("utf-8"))
-AT_REST = 'S_SafetyActive = "at_rest"'
+AT_REST = 'S_SafetyActive = "zone_safe"'
 BEFORE_PICK_UP = " AND NOT edm.S_EDM_Out"
 
 MISTAKES = {
     "the status of the guard for the request": (
-        'S_OutControl = "running.Q1"',
+        'S_OutControl = "running.Q1 OR held.Q1"',
         'S_OutControl = "guard.S_GuardLocked"',
         "safeguards-of-the-mode",
     ),
