@@ -21,7 +21,7 @@ SAFETY = {row["id"]: row for row in tomllib.loads((FOLDER / "safety.toml").read_
 PAGE = (ROOT / "docs/wire-your-machine.md").read_text("utf-8")
 SAME = "same scan"
 IN_THE_TEST = [{"BeamTest": True}, {"BeamTest": False, "S_BeamFree": False}, *[{}] * 30]
-NO_PICK_UP = [
+NO_PICK_UP: list[Mapping[str, Any]] = [
     {"Stop": False, "scans": 1},
     {"Stop": True},
     {},
