@@ -106,8 +106,8 @@ def model_of(machine: Machine, folder: Path) -> str:
 
     Those that name what the wiring has not are left out, as in a judgement. Raises Unjudged.
     """
-    observers = _looked_at(machine).get("observer", {})
-    there = {name: row for name, row in observers.items() if name in machine.watched.rows}
+    _looked_at(machine)
+    there = {name: {"of": row.of, "inputs": row.inputs} for name, row in machine.watched.rows.items()}
     asked = asked_of({"property": machine.questions.rows}, str(machine.properties))
     model = Module(machine.wiring, read_blocks(folder / "tlc.toml"), there, asked)
     title = f"{machine.wiring.table.title}, over the contracts of its blocks."

@@ -14,8 +14,8 @@ Rest ==
     [LA |-> FALSE, A |-> FALSE, B |-> FALSE, C |-> FALSE, D |-> FALSE, STR |-> FALSE, MW03 |-> 0, MW07 |-> 0,
      S_GuardClosed |-> TRUE, S_GuardBolt |-> TRUE, UnlockButton |-> FALSE, ResetGuard |-> FALSE,
      S_BeamFree |-> TRUE, BeamTest |-> FALSE, ResetBeam |-> FALSE,
-     S_Enable1 |-> FALSE, S_Enable2 |-> TRUE, S_Enable3 |-> FALSE, Start |-> FALSE, Stop |-> TRUE,
-     Reset |-> FALSE, S_Standstill |-> TRUE, S_Contactor1 |-> TRUE, S_Contactor2 |-> TRUE, dt |-> 1]
+     S_Enable1 |-> FALSE, S_Enable2 |-> TRUE, S_Enable3 |-> FALSE, Start |-> FALSE, Stop |-> FALSE,
+     S_EmergencyStop |-> TRUE, Reset |-> FALSE, S_Standstill |-> TRUE, S_Contactor1 |-> TRUE, S_Contactor2 |-> TRUE, dt |-> 1]
 
 Resets == [ResetGuard |-> TRUE, ResetBeam |-> TRUE, Reset |-> TRUE]
 \* The highest level: it permits every mode (EKS-T2-2)
@@ -24,7 +24,7 @@ All == [A |-> TRUE, B |-> TRUE, C |-> TRUE, D |-> TRUE]
 \* EKS-T2: MW03 and MW07 of each mode
 Selects(goal) == [MW03 |-> <<\h0FF0, \h3333, \h33CC, \h3C3C, \h0F0F>>[goal + 1]]
 Confirms(goal) == [MW07 |-> <<\h33CC, \h3C3C, \h0F0F, \h0FF0, \h3333>>[goal + 1]]
-Released == [Stop |-> FALSE, LA |-> TRUE, STR |-> TRUE]
+Released == [Stop |-> TRUE, LA |-> TRUE, STR |-> TRUE]
 \* In its middle position, but in automatic mode
 Held(goal) == IF goal = 1 THEN <<>> ELSE [S_Enable1 |-> TRUE, S_Enable2 |-> FALSE, S_Enable3 |-> TRUE]
 Moves == [S_Standstill |-> FALSE, S_Contactor1 |-> FALSE, S_Contactor2 |-> FALSE]

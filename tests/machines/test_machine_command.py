@@ -47,7 +47,7 @@ def test_a_wiring_without_a_beam_is_not_asked_about_it(tmp_path: Path) -> None:
     assert {*found.not_asked.values()} == {"no SF_TestableSafetySensor"}
     assert {*found.not_asked} == {
         *("beam-stops", "beam-stops-manual", "dark-stops-at-once", "beam-needs-reset"),
-        *("sender-off-only-tested", "beam-error-stays"),
+        *("sender-off-only-tested", "beam-error-stays", "reaching-is-slow", "letting-go-stops-reaching"),
     }
     assert {*found.not_asked, *(row["id"] for row in found.questions.rows)} == {
         row["id"] for row in found.every.rows
@@ -61,6 +61,8 @@ def test_an_observer_of_what_is_lacking_takes_its_properties_along(tmp_path: Pat
     assert machine(tmp_path, text).lacking == {
         "beam-needs-reset": "ResetBeam",
         "beam-error-stays": "ResetBeam",
+        "reaching-is-slow": "ResetBeam",
+        "letting-go-stops-reaching": "ResetBeam",
     }
 
 

@@ -22,12 +22,12 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
 SAFETY = tomllib.loads((FOLDER / "safety.toml").read_text("utf-8"))
-AT_REST = 'S_SafetyActive = "at_rest"'
+AT_REST = 'S_SafetyActive = "zone_safe"'
 BEFORE_PICK_UP = " AND NOT edm.S_EDM_Out"
 
 MISTAKES = {
     "the status of the guard for the request": (
-        'S_OutControl = "running.Q1"',
+        'S_OutControl = "running.Q1 OR held.Q1"',
         'S_OutControl = "guard.S_GuardLocked"',
         "safeguards-of-the-mode",
     ),
@@ -236,7 +236,7 @@ def test_a_forgotten_door_is_found_in_the_fewest_scans() -> None:
 def test_a_press_is_judged_whole(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["machine", str(ROOT / "examples/machines/press.toml"), "--quiet"]) == 0
     said = capsys.readouterr().out
-    assert "  verdicts    34 PROVED, 0 REFUTED, 0 UNKNOWN" in said
+    assert "  verdicts    42 PROVED, 0 REFUTED, 0 UNKNOWN" in said
     for id in ("reset-then-start", "mode-change-stops", "reset-never-starts", "mode-needs-key"):
         assert f"PROVED: {id}: " in said
     assert said.count("  not asked   ") == 3

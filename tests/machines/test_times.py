@@ -21,14 +21,14 @@ SAFETY = {row["id"]: row for row in tomllib.loads((FOLDER / "safety.toml").read_
 PAGE = (ROOT / "docs/wire-your-machine.md").read_text("utf-8")
 SAME = "same scan"
 IN_THE_TEST = [{"BeamTest": True}, {"BeamTest": False, "S_BeamFree": False}, *[{}] * 30]
-NO_PICK_UP = [
-    {"Stop": True, "scans": 1},
-    {"Stop": False},
+NO_PICK_UP: list[Mapping[str, Any]] = [
+    {"Stop": False, "scans": 1},
+    {"Stop": True},
     {},
     {"Start": True},
     *[{"Start": False, "S_Contactor1": True}] * 50,
 ]
-WELDED = [{"Stop": True, "S_Contactor1": False}, *[{"S_Contactor1": False}] * 50]
+WELDED = [{"Stop": False, "S_Contactor1": False}, *[{"S_Contactor1": False}] * 50]
 DEMANDS: Mapping[str, tuple[Sequence[Mapping[str, Any]], Sequence[int]]] = {
     "beam-stops": (IN_THE_TEST, [10, 5, 50, 49]),
     "beam-stops-manual": (IN_THE_TEST, [10, 5, 50, 49]),

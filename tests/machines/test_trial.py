@@ -84,7 +84,7 @@ def test_blocks_that_do_not_read_each_other_change_over_freely() -> None:
 def test_an_edit_that_a_property_reads_is_not_the_same() -> None:
     trial = Trial(plain(runs=1))
     for id, same in (
-        ("outputs.S_SlowSpeed = guard.S_GuardLocked", False),
+        ("outputs.S_FullSpeed = starts", False),
         ("order = manual_begins and automatic_begins changed over", True),
     ):
         edit = next(edit for edit in edits(TEXT, trial.machine.wiring) if edit.id == id)

@@ -28,8 +28,8 @@ SOURCE = BY_HAND.read_text("utf-8")
 MISTAKES = {
     "the mode is one scan old": ("newMode <> oldMode", "FALSE", "mode-change-stops"),
     "no start button": ("Start AND NOT oldStart AND couldStart", "couldStart", "reset-then-start"),
-    "unlock before the pick-up": (" AND NOT S_DriveEnable,", ",", "unlock-at-rest"),
-    "stop is forgotten": ("isReset AND allowed AND NOT Stop", "isReset AND allowed", "stop-stops"),
+    "unlock before the pick-up": (" AND NOT S_DriveEnable;\nIF atRest", ";\nIF atRest", "unlock-at-rest"),
+    "stop is forgotten": ("isReset AND allowed AND Stop", "isReset AND allowed", "stop-stops"),
     "one reset for door and desk": ("Reset := ResetGuard", "Reset := Reset", "door-error-stays"),
 }
 

@@ -72,7 +72,8 @@ def test_a_crossed_wire_differs_with_scan_and_inputs(
 ) -> None:
     mine = tmp_path / "my.toml"
     mine.write_text(
-        TEXT.replace('S_OutControl = "running.Q1"', 'S_OutControl = "guard.S_GuardLocked"'), "utf-8"
+        TEXT.replace('S_OutControl = "running.Q1 OR held.Q1"', 'S_OutControl = "guard.S_GuardLocked"'),
+        "utf-8",
     )
     args = [
         "conform",

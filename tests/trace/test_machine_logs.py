@@ -82,7 +82,7 @@ def test_a_log_is_judged_by_the_wiring_that_is_named(
 ) -> None:
     mine = tmp_path / "my.toml"
     text = (ROOT / "spec/machine_cell/wiring.toml").read_text("utf-8")
-    mine.write_text(text.replace('S_OutControl = "running.Q1"', 'S_OutControl = "Reset"'), "utf-8")
+    mine.write_text(text.replace('S_OutControl = "running.Q1 OR held.Q1"', 'S_OutControl = "Reset"'), "utf-8")
     assert trace(as_lines(tmp_path / "log.jsonl", lines), "--wiring", str(mine)) == 1
     assert "DIFFERS" in capsys.readouterr().out
 
