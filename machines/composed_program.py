@@ -72,7 +72,7 @@ NONE = Watched("", {}, {})
 def cell_of(wiring: Wiring, watched: Watched = NONE) -> Cell:
     """The machine as a program with these observers. Raises Unjudged."""
     made = unit(wiring, watched)
-    source = Source({made.name.upper(): made}, {})
+    source = Source({**wiring.source.units, made.name.upper(): made}, wiring.source.files)
     return Cell.of(source, made, wiring.table.scan_ms)
 
 
@@ -90,7 +90,7 @@ def unit(wiring: Wiring, watched: Watched = NONE) -> Unit:
     for name in wiring.signals:
         declare(name, BOOL, "var", wiring.place(f"signals.{name}"))
     for name in table.order:
-        declare(name, Instance(table.block[name].of), "var", wiring.place(f"block.{name}"))
+        declare(name, Instance(wiring.block_name(name)), "var", wiring.place(f"block.{name}"))
     for name, seen in watched.rows.items():
         if name.upper() in variables:
             raise watched.place(name).refuse(f"observer.{name}: the cell has a signal of this name")

@@ -9,8 +9,9 @@ from __future__ import annotations
 import itertools
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import SimpleNamespace
 from typing import Any
 
 from machines.composed_program import Watched, kind_of
@@ -93,6 +94,15 @@ class Runner:
     @staticmethod
     def of(wiring: Wiring, watched: Watched, use: Use, table: Mapping[str, Any]) -> Runner:
         """The runner of a wiring whose file says `table`. Raises Unjudged, also for the use."""
+        made = Runner.without_cell(wiring, watched, use, table)
+        try:
+            return replace(made, cell=reference.made_of(made.table))
+        except ParameterError as error:
+            raise Unjudged(f"{wiring.file}: {error}") from None
+
+    @staticmethod
+    def without_cell(wiring: Wiring, watched: Watched, use: Use, table: Mapping[str, Any]) -> Runner:
+        """The same, of whose cell the inputs alone are known: for a machine that something else runs."""
         check_use(use, wiring)
         rows = {name: {"of": seen.of, "inputs": seen.inputs} for name, seen in watched.rows.items()}
         whole = {
@@ -104,8 +114,8 @@ class Runner:
                 **{name: row for name, row in table["outputs"].items() if name not in table["inputs"]},
             },
         }
+        cell: Any = SimpleNamespace(inputs={name: row.type for name, row in wiring.table.inputs.items()})
         try:
-            cell = reference.made_of(whole)
             named = {name: row["is"] for name, row in whole["signals"].items()}
             named |= reference.from_matrix(whole)
             follows = {name: signal(text, named) for name, text in followed(use, wiring, watched).items()}

@@ -49,12 +49,12 @@ def unasked(wiring: Wiring, watched: Watched, questions: Questions) -> Iterator[
 
 
 def unasked_blocks(wiring: Wiring, watched: Watched, questions: Questions) -> Iterator[str]:
-    """The documents' blocks of which no property names a pin: a second door, a second switch."""
+    """The documents' blocks, and those of one's own, of which no property names a pin: a second door."""
     place = wiring.place("block")
     texts = [row[key] for row in questions.rows for key in EXPRESSIONS if isinstance(row.get(key), str)]
     texts += [text for seen in watched.rows.values() for text in seen.inputs.values()]
     said = {name.upper() for text in texts for name in names(parsed(text, place))}
-    yield from (name for name, of in wiring.kinds.items() if of.unit is not None and name.upper() not in said)
+    yield from (name for name, of in wiring.kinds.items() if (of.unit or of.own) and name.upper() not in said)
 
 
 def _shown(leaf: Name | Member) -> str:

@@ -23,6 +23,7 @@ from machines.equality import Equality
 from machines.killers import Killers, changed, read_killers
 from machines.killers import as_toml as as_rows
 from machines.outcomes import outcome_of
+from machines.own_machine import OwnMachine, refuse_own
 from machines.trial import Outcome as Tried
 from machines.trial import Trial, edits
 from machines.trial_record import as_json, basis_of, outcomes_path, read_outcomes
@@ -59,13 +60,16 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.picture, machine_picture.picture(wiring))
     machine = _machine(args, progress)
     if args.model is not None:
+        refuse_own(machine, "a TLA+ module")
         write_text(args.model, machine_tlc.model_of(machine, folder))
     if args.vectors is not None:
+        refuse_own(machine, "the reference, which test vectors are made of,")
         return _vectors(args, file, machine.use, progress)
     with _at_work(progress):
         if args.killers:
             return _killers(machine, folder)
         if args.trial is not None:
+            refuse_own(machine, "the reference, on which edits are tried,")
             ours = args.file is args.properties is args.use is None and not args.source
             kept = outcomes_path(root(), folder.name) if ours else None
             return _trial(machine, args.trial, progress, kept)
@@ -108,8 +112,8 @@ def _file(args: argparse.Namespace) -> Path:
 def _machine(args: argparse.Namespace, progress: Progress) -> Machine:
     """The wiring with its properties and its use. Raises Unjudged."""
     folder, file = root() / FOLDER, _file(args)
-    read_wiring(file)  # a refusal comes before any work
-    kind: Callable[..., Machine] = Machine
+    wiring = read_wiring(file)  # a refusal comes before any work
+    kind: Callable[..., Machine] = OwnMachine if wiring.only_by_source else Machine
     if args.source:
         kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
     names = str(file), args.properties or folder / "safety.toml", args.use or folder / "use.toml"

@@ -16,14 +16,15 @@ from typing import Any
 
 from machines.candidate_invariants import Sample
 from machines.composed_program import observed
-from machines.concrete_runs import Inputs, Runner
+from machines.concrete_runs import Inputs, Runner, read_use
 from machines.missing_names import EXPRESSIONS
 from machines.signal_names import leaves, names
 from machines.verdicts import Machine
-from machines.wiring import STANDARD, Wiring
+from machines.wiring import Wiring
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.language.calls import inner_bodies
 from programs.language.shared_memory import completed
+from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     BOOL,
     Assign,
@@ -136,7 +137,8 @@ class ProgramMachine(Machine):
         for tree in (parsed(found[key], place) for key in EXPRESSIONS if key in found):
             for leaf in leaves(tree):
                 name = leaf.of.name if isinstance(leaf, Member) and isinstance(leaf.of, Named) else ""
-                if name in self.wiring.kinds and self.wiring.kinds[name].unit is None:
+                kind = self.wiring.kinds.get(name)
+                if kind is not None and kind.unit is kind.own is None:
                     raise place.refuse(
                         f"{row['id']}: {name} is a standard block, of which a program may have others"
                     )
@@ -149,7 +151,7 @@ class ProgramMachine(Machine):
         A wire that reads a standard block of the wiring is none of the program's.
         """
         wiring = self.wiring
-        standard = {name for name, row in wiring.table.block.items() if row.of.upper() in STANDARD}
+        standard = {name for name, of in wiring.kinds.items() if of.unit is of.own is None}
         found: set[str] = set()
         for name, tree in wiring.signals.items():
             read = set(names(tree))
@@ -157,17 +159,19 @@ class ProgramMachine(Machine):
                 found.add(name)
         return found
 
+    @property
+    def _blocks(self) -> list[str]:
+        """The blocks of the wiring that the program has too; of the standard ones it may have others."""
+        return [name for name, of in self.wiring.kinds.items() if of.unit or of.own]
+
     @cached_property
     def runner(self) -> Runner:
-        """What runs the source."""
-        base = super().runner
+        """What runs the source. Raises Unjudged, also for the use."""
+        base = Runner.without_cell(self.wiring, self.watched, read_use(self.use), self.table)
         named = {name: text for name, text in base.named.items() if name not in self.wiring.table.outputs}
-        shown = [*self.watched.rows, *(name for name, of in self.wiring.kinds.items() if of.unit is not None)]
-        pins = {
-            f"{block}.{pin}": (block.upper(), pin.upper())
-            for block in shown
-            for pin in (self.wiring.kinds[block].outputs if block in self.wiring.kinds else ("Q", "Q1"))
-        }
+        outs = {name: self.wiring.kinds[name].outputs for name in self._blocks}
+        outs |= {name: BLOCKS[seen.of.upper()][1] for name, seen in self.watched.rows.items()}
+        pins = {f"{name}.{pin}": (name.upper(), pin.upper()) for name, of in outs.items() for pin in of}
         values = {name: getattr(base, name) for name in base.__dataclass_fields__} | {"named": named}
         return ProgramRunner(**values, program=self.cell, pins=pins)
 
@@ -200,19 +204,23 @@ def _check(own: Unit, wiring: Wiring, sources: Mapping[str, Unit]) -> None:
         if name.upper() not in {row.upper() for row in table.inputs}:
             raise variable.place.refuse(f"input {name} is not in {wiring.file}; write it there too")
     for name, of in wiring.kinds.items():
-        if of.unit is None:
+        if of.unit is of.own is None:
             continue
         instance = own.variables.get(name.upper())
         if instance is None or not isinstance(instance.type, Instance):
             kind = wiring.table.block[name].of
             raise own.place.refuse(f"no instance {name} of {kind}; {wiring.file} calls it so")
+        if of.own is not None:
+            if instance.type.block.upper() != of.own.name.upper():
+                raise instance.place.refuse(f"{name} is no {of.own.name}, as {wiring.file} has it")
+            continue
         if (brought := sources.get(instance.type.block.upper())) is not None:
             raise brought.place.refuse(
                 f"{brought.name}: {wiring.file} means the document's block, and here is another of its name; "
                 "take it out, and prove it alone with prove-program --target"
             )
         device = blocks.block(instance.type.block)
-        if device is None or device.unit().name != of.unit.name:
+        if device is None or of.unit is None or device.unit().name != of.unit.name:
             kind = wiring.table.block[name].of
             raise instance.place.refuse(f"{name} is no {kind}, as {wiring.file} has it")
     for name in wiring.signals:

@@ -21,6 +21,8 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from machines.block_rows import Pins, Row, check_row
+from machines.own_pins import PINS, block_of, file_of, pins_of, source_of
 from machines.signal_names import names
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.typed import Count, Entry, Text, rows_of, typed
@@ -28,15 +30,14 @@ from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     BOOL,
     SCALARS,
-    TIME,
     Binary,
     Expression,
     Member,
     Name,
     Place,
     Scalar,
+    Source,
     Unary,
-    Unit,
 )
 from programs.language.tree import Literal as Value
 from programs.properties.property_file import parsed
@@ -46,7 +47,7 @@ from refimpl.errors import ParameterError
 from refimpl.machine_cell.expression import signal
 
 STANDARD = ("R_TRIG", "F_TRIG", "SR", "RS", "TON")
-"""The standard blocks that a wiring may have."""
+"""The standard blocks that the reference of wirings has; of a machine with others the program is run."""
 IN_USE, ANY_MODE, TWO_MODES, HOLD = "_in_use", "a_mode", "two_modes", "safeguards_hold"
 """The signals that come from modes and matrix, beside each mode by its name: the first for each safeguard."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -77,15 +78,6 @@ class Output(Entry, frozen=True, kw_only=True):
     why: Text
 
 
-class Row(Entry, frozen=True, kw_only=True):
-    """An instance of a block: the source of each input pin, the parameters that are not at their default."""
-
-    of: Text
-    why: Text
-    inputs: dict[str, Text]
-    parameters: dict[str, int | bool | str] = msgspec.field(default_factory=dict)
-
-
 Sets = Annotated[
     tuple[Annotated[tuple[Text, ...], msgspec.Meta(min_length=1)], ...], msgspec.Meta(min_length=1)
 ]
@@ -110,17 +102,6 @@ class Table(Entry, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True)
-class Pins:
-    """The pins of a kind of block: name and type of inputs, parameters and outputs."""
-
-    inputs: Mapping[str, Scalar]
-    parameters: Mapping[str, Scalar]
-    outputs: Mapping[str, Scalar]
-    unit: Unit | None
-    """Of a document's block."""
-
-
-@dataclass(frozen=True)
 class Wiring:
     """A wiring that was looked through: every name exists, every pin has its one source."""
 
@@ -142,15 +123,44 @@ class Wiring:
         """The pins of each block."""
         return {name: self._kind(name, row) for name, row in self.table.block.items()}
 
+    @cached_property
+    def source(self) -> Source:
+        """The files of all blocks of one's own. Raises Unjudged."""
+        named = [file_of(row.of, self.file) for row in self.table.block.values()]
+        files = [found[0] for found in named if found is not None]
+        return source_of(files) if files else Source({}, {})
+
+    @property
+    def only_by_source(self) -> list[str]:
+        """The blocks that the reference of wirings has not: one's own, and standard ones."""
+        kinds = self.kinds.items()
+        return [
+            name
+            for name, of in kinds
+            if of.unit is None and self.table.block[name].of.upper() not in STANDARD
+        ]
+
+    def block_name(self, name: str) -> str:
+        """The name under which a program has an instance of a block."""
+        own = self.kinds[name].own
+        return self.table.block[name].of if own is None else own.name
+
     def _kind(self, name: str, row: Row) -> Pins:
         key = row.of.upper()
-        if key in STANDARD:
+        if key in BLOCKS:
             ins, outs = BLOCKS[key]
-            fixed = {pin: kind for pin, kind in ins.items() if kind is TIME}
-            return Pins({pin: kind for pin, kind in ins.items() if kind is not TIME}, fixed, outs, None)
+            fixed = {pin: kind for pin, kind in ins.items() if kind not in PINS}
+            shown = {pin: kind for pin, kind in outs.items() if kind in PINS or key in STANDARD}
+            return Pins({pin: kind for pin, kind in ins.items() if pin not in fixed}, fixed, shown, None)
+        if (file := file_of(row.of, self.file)) is not None:
+            try:
+                own = block_of(self.source, file[1], file[0])
+            except Unjudged as error:
+                raise self.refuse(f"block.{name}", error.message) from None
+            return Pins(*pins_of(own), None, own)
         found = blocks.block(row.of)
         if found is None:
-            known = [*STANDARD, *(target for target in targets() if blocks.block(target))]
+            known = [*BLOCKS, *(target for target in targets() if blocks.block(target)), "FILE.st:NAME"]
             raise self.refuse(f"block.{name}", f"no block {row.of!r}; {suggestion(row.of, known)}")
         unit = found.unit()
         sides: dict[str, dict[str, Scalar]] = {"inputs": {}, "parameters": {}, "outputs": {}}
@@ -326,7 +336,7 @@ def _check(wiring: Wiring) -> None:
     if not low <= table.cycle_ms <= high:
         raise wiring.refuse("scan_ms", f"{low} to {high} ms does not contain cycle_ms, {table.cycle_ms} ms")
     for name, row in table.block.items():
-        _check_block(wiring, name, row)
+        check_row(row, wiring.kinds[name], wiring.refuse, f"block.{name}", table.cycle_ms)
     _check_order(wiring)
     _check_matrix(wiring)
     for name, wire in table.safeguards.items():
@@ -366,40 +376,6 @@ def is_plain(text: str) -> bool:
         return re.fullmatch(r"[\w.()\s]*", text, re.ASCII) is not None and signal(text, {}) is not None
     except ParameterError:
         return False
-
-
-def _check_block(wiring: Wiring, name: str, row: Row) -> None:
-    pins, here = wiring.kinds[name], f"block.{name}"
-    for pin in row.inputs:
-        if pin in pins.parameters:
-            raise wiring.refuse(f"{here}.inputs.{pin}", "is a parameter; it belongs in `parameters`")
-        if pin not in pins.inputs:
-            cause = f"{row.of} has no input {pin!r}; {suggestion(pin, pins.inputs)}"
-            raise wiring.refuse(f"{here}.inputs.{pin}", cause)
-    for pin in pins.inputs:
-        if pin not in row.inputs:
-            raise wiring.refuse(f"{here}.inputs.{pin}", f"an input without a source: {row.of} reads {pin}")
-    for pin in pins.parameters:
-        if pins.unit is None and pin not in row.parameters:
-            raise wiring.refuse(
-                f"{here}.parameters.{pin}", f"a parameter without a value: {row.of} has no default"
-            )
-    for pin, value in row.parameters.items():
-        place = f"{here}.parameters.{pin}"
-        if pin not in pins.parameters:
-            known = suggestion(pin, pins.parameters) if pins.parameters else "it has none"
-            raise wiring.refuse(place, f"{row.of} has no parameter {pin!r}; {known}")
-        kind = pins.parameters[pin]
-        if kind is TIME:
-            if type(value) is not int or value < 0:
-                raise wiring.refuse(place, f"a time in whole ms, not {value!r}")
-            if value % wiring.table.cycle_ms:
-                cycle = wiring.table.cycle_ms
-                raise wiring.refuse(place, f"{value} ms is no multiple of the cycle, {cycle} ms")
-        elif kind is BOOL and type(value) is not bool:
-            raise wiring.refuse(place, f"true or false, not {value!r}")
-        elif kind.kind == "enum" and value not in kind.names:
-            raise wiring.refuse(place, f"{value!r} is not allowed; {suggestion(str(value), kind.names)}")
 
 
 def _check_order(wiring: Wiring) -> None:

@@ -135,7 +135,7 @@ def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mappi
         raise Unjudged(f"{path}: two properties have the id {name!r}; {TYPES!r} is ours")
     seen.add(name)
     for key, kind in beside.items():
-        if not isinstance(row.get(key), kind) or not row[key]:
+        if not isinstance(row.get(key), kind) or (kind is str and not row[key]):
             raise Unjudged(
                 f"{path}: {name}: {key} is missing, or no {'text' if kind is str else kind.__name__}"
             )
