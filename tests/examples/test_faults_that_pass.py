@@ -96,7 +96,10 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("target", PACKS)
+@pytest.mark.parametrize(
+    "target",
+    [pytest.param(one, marks=[pytest.mark.long] * (one not in (FPLC.target, "sf_edm"))) for one in PACKS],
+)
 def test_the_program_without_fault_conforms_to_short_suites(
     target: str, built: Callable[[str], Built]
 ) -> None:
