@@ -100,7 +100,7 @@ class Run(Entry, frozen=True, kw_only=True):
     cfg: Annotated[str, msgspec.Meta(pattern=r"^(models/\w+\.cfg)?$")] = ""
     kind: Kind
     """What the id begins with."""
-    lanes: tuple[Lane, ...]
+    lanes: tuple[Lane, ...] = ("full",)
     environment: Annotated[str, msgspec.Meta(pattern=r"^[a-z][a-z_]*$")]
     strength: str = ""
     base: str = ""
@@ -110,7 +110,7 @@ class Run(Entry, frozen=True, kw_only=True):
     view: str | None = None
     model: Model | None = None
     workers: Count = 1
-    heap_mb: Count = 1024
+    heap_mb: Count = 512
     timeout_s: Annotated[float, msgspec.Meta(gt=0)] = 300
     properties: tuple[Name, ...] = ()
     property: str = ""

@@ -43,7 +43,9 @@ def test_the_page_has_seven_steps() -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("step", EXPECTED)
+@pytest.mark.parametrize(
+    "step", [pytest.param(one, marks=[pytest.mark.long] * (one == "6")) for one in EXPECTED]
+)
 def test_the_commands_of_a_step_give_its_verdict(step: str, place: Path) -> None:
     said = output_of("\n".join(fenced(STEPS[step], "sh")), place)
     words = set(re.findall(r"^(FOLLOWS|BREAKS|PROVED|REFUTED|UNKNOWN|EMPTY|HOLDS)", said, re.MULTILINE))

@@ -49,7 +49,7 @@ def judged(program: Path, suite: Suite, relation: str, effort: int = 0) -> Verdi
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("relation", ["settled", "monitor"])
+@pytest.mark.parametrize("relation", ["settled", pytest.param("monitor", marks=pytest.mark.long)])
 def test_it_passes_what_leaves_it_its_time(program: Path, suite: Suite, relation: str) -> None:
     verdict = judged(program, suite, relation)
     assert (verdict.word, verdict.reason) == ("FOLLOWS" if relation == "monitor" else "CONFORMS", "")

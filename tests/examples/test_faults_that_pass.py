@@ -96,10 +96,22 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("target", PACKS)
-def test_the_program_without_fault_conforms_to_all_its_vectors(
+@pytest.mark.parametrize(
+    "target",
+    [pytest.param(one, marks=[pytest.mark.long] * (one not in (FPLC.target, "sf_edm"))) for one in PACKS],
+)
+def test_the_program_without_fault_conforms_to_short_suites(
     target: str, built: Callable[[str], Built]
 ) -> None:
     pack = built(target)
-    chosen = list(pack.suites) if target != FPLC.target else list(pack.suites)[1:]  # test_c_program has brief
-    assert conforms(pack, "", chosen)
+    seen = LONG if target != FPLC.target else (WHOLE, *LONG)  # test_c_program has brief
+    assert conforms(pack, "", [name for name in pack.suites if name not in seen])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("target", PACKS)
+def test_the_program_without_fault_conforms_to_long_suites(
+    target: str, built: Callable[[str], Built]
+) -> None:
+    pack = built(target)
+    assert conforms(pack, "", [name for name in pack.suites if name in LONG])

@@ -138,7 +138,7 @@ def test_a_wrong_invariant_is_refused_by_both_solvers(tmp_path: Path) -> None:
     assert [solver(scan) for solver in SOLVERS.values()] == ["sat", "sat"]
 
 
-@pytest.mark.deep
+@pytest.mark.long
 def test_what_has_no_invariant_is_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = unlocking(tmp_path)
     text = path.read_text("utf-8").replace('"S_UnlockGuard"', '"running.Q1"')

@@ -26,11 +26,16 @@ from programs.semantics.reference import targets
 EVERY = [one for document in documents(root()) for one in subjects(root(), document)]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     ("target", "profile"),
-    [pytest.param(*one, marks=pytest.mark.deep) for one in EVERY],
+    [
+        pytest.param(*one, marks=[pytest.mark.long] * (one[1] == "cautious" or one[0] == "fplc"))
+        for one in EVERY
+    ],
 )
 def test_the_reference_does_what_its_page_demands(target: str, profile: str) -> None:
+    """`verify` proves them all."""
     left_out = load_demand_rows(root(), targets()[target]).unproved.get(target, {})
     judgement = judgement_of(target, profile, 60, left_out=[*left_out])
     found = shown(judgement)

@@ -55,7 +55,7 @@ def test_the_other_encoding_is_proved_and_checked_again(tmp_path: Path) -> None:
     assert again.status == 0 and again.product.wrap and not again.unreached
 
 
-@pytest.mark.deep
+@pytest.mark.long
 def test_the_fplc_in_statement_list_is_proved_equal() -> None:
     found = judged(ROOT / "examples" / "awl" / "fplc.awl", "fplc")
     word, pairs = found.word, len(found.product.nodes)  # a product takes pytest minutes to print

@@ -117,7 +117,7 @@ def test_translator_agrees_with_the_interpreter() -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("wrap", [False, True])
+@pytest.mark.parametrize("wrap", [pytest.param(False, marks=pytest.mark.long), True])
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_translator_agrees_over_many_random_scans(seed: int, wrap: bool) -> None:
     assert difference_of_text(KITCHEN.read_text("utf-8"), seed, 1500, wrap) == ""
