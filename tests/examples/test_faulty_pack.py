@@ -104,7 +104,7 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(
     )
 
 
-@pytest.mark.deep
+@pytest.mark.long  # it is about all of them
 def test_nine_of_ten_diagnoses_name_what_the_fault_touches(judged: Callable[[str], Judged]) -> None:
     missed, count = [], 0
     for target, fault in AGAIN:
@@ -113,7 +113,7 @@ def test_nine_of_ten_diagnoses_name_what_the_fault_touches(judged: Callable[[str
         count += 1
         if found is None or not leads_there(suite, fault, found):
             missed.append(f"{fault.id}: {found and (found.step, unseen(suite, found), [*found.expected])}")
-    assert len(REJECTED) > 200 and count * 4 >= len(REJECTED)
+    assert count == len(REJECTED) > 200
     assert len(missed) * 10 <= count, "\n".join(missed)
 
 

@@ -46,7 +46,9 @@ WRONG = {
 
 
 @pytest.mark.sampled
-@pytest.mark.parametrize("broken", WRONG)
+@pytest.mark.parametrize(
+    "broken", [pytest.param(one, marks=[pytest.mark.long] * (at > 1)) for at, one in enumerate(WRONG)]
+)
 def test_a_fault_in_an_own_block_is_refuted(
     broken: str, press: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -23,7 +23,12 @@ FOLDER = ROOT / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
 
 MISTAKES = {
-    "unlock before the pick-up": (" AND NOT edm.S_EDM_Out", "", "unlock", "UnlockAtRest"),
+    "unlock before the pick-up": (
+        "S_Contactor2 AND NOT edm.S_EDM_Out",
+        "S_Contactor2",
+        "unlock",
+        "UnlockAtRest",
+    ),
     "a safeguard is forgotten": (
         'automatic = [["guard", "beam"]]',
         'automatic = [["beam"]]',
