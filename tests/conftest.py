@@ -18,7 +18,7 @@ pytest.register_assert_rewrite(*(f"tests.{path.stem}" for path in HERE.iterdir()
 
 from modeproof.ground.solvers import needing_solvers  # noqa: E402
 from tests.any_machine import PATIENCE_S, no_hurry  # noqa: E402
-from tests.groups import group_of  # noqa: E402
+from tests.groups import group_of, in_order  # noqa: E402
 from tests.tiers import divide  # noqa: E402
 
 no_hurry()
@@ -42,9 +42,19 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByGroup:
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Cases are put into tiers before `-m` chooses among them."""
+def pytest_configure(config: pytest.Config) -> None:
+    """The order of the groups is ours (`in_order`)."""
+    if hasattr(config.option, "loadscopereorder"):
+        config.option.loadscopereorder = False
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Cases are put into tiers before `-m` chooses among them; several processes take groups in our order."""
     divide(items)
+    if hasattr(config, "workerinput"):
+        groups = [group_of(PurePath(item.nodeid.partition("::")[0]).relative_to(HERE.name)) for item in items]
+        items[:] = [items[place] for place in in_order(groups)]
 
 
 @pytest.fixture(scope="session", autouse=True)

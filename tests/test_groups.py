@@ -10,7 +10,7 @@ from pathlib import Path, PurePath
 
 import pytest
 
-from tests.groups import group_of
+from tests.groups import FIRST, group_of, in_order
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCUMENTS = frozenset({"lamp", "door"})
@@ -33,6 +33,20 @@ DOCUMENTS = frozenset({"lamp", "door"})
 )
 def test_a_document_or_a_room_or_a_file(file: str, group: str) -> None:
     assert group_of(PurePath(file), DOCUMENTS) == group
+
+
+def test_what_takes_long_is_begun_first() -> None:
+    groups = ["kit/a.py", "trace", "kit/b.py", "kit/b.py", "trace", "simulate"]
+    assert [groups[place] for place in in_order(groups)] == [
+        *("trace", "trace", "simulate"),
+        *("kit/b.py", "kit/b.py", "kit/a.py"),
+    ]
+    assert in_order(groups)[:2] == [1, 4]
+
+
+def test_every_group_that_is_begun_first_is_there() -> None:
+    files = [path.relative_to(ROOT / "tests") for path in (ROOT / "tests").rglob("test_*.py")]
+    assert set(FIRST) <= {group_of(PurePath(path)) for path in files}
 
 
 @pytest.mark.deep
