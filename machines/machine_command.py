@@ -60,7 +60,6 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.picture, machine_picture.picture(wiring))
     machine = _machine(args, progress)
     if args.model is not None:
-        refuse_own(machine, "a TLA+ module")
         write_text(args.model, machine_tlc.model_of(machine, folder))
     if args.vectors is not None:
         refuse_own(machine, "the reference, which test vectors are made of,")

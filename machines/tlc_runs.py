@@ -10,6 +10,7 @@ from typing import Any
 
 from machines.concrete_runs import read_use
 from machines.missing_names import lacking
+from machines.own_machine import refuse_own
 from machines.tla_model import As, Asked, Block, asked_of, read_blocks
 from machines.tla_module import Module
 from machines.verdicts import Machine
@@ -93,6 +94,7 @@ def tasks(
 
 def _looked_at(machine: Machine) -> Mapping[str, Any]:
     """The file of properties with its observers. Raises Unjudged with file, line and cause."""
+    refuse_own(machine, "a TLA+ module")
     lost = lacking(machine.wiring, machine.observers, machine.every)
     for row in () if machine.leave_out else machine.every.rows:
         if name := lost.get(row["id"]):

@@ -13,17 +13,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
-import tomlkit
 
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.citations import Sources
+from modeproof.registers.edits import applied, check_stamps
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import cfg_text, replaced_by
-from modeproof.registers.pins import HEADER, checked_texts, digest, load_pins
+from modeproof.registers.pins import checked_texts, digest
 from modeproof.registers.rows import Document, Problem, Property
 from modeproof.registers.runs import ASKING, Run
-from modeproof.registers.stale import stale
 from modeproof.registers.tla import Module, closure
 from modeproof.registers.typed import Entry, Name, RunId, Text, grouped, only_keys, typed
 
@@ -152,17 +150,8 @@ def check_killers(document: Document, sources: Sources) -> list[Problem]:
     asked = {killer.run for killer in killers.edits.values()}
     spare = (name for name in killers.bounds if name not in asked)
     problems += [Problem(file, f"bounds.{name}", "no edit is judged within these bounds") for name in spare]
-    known_stamps = load_pins(document).killers
-    for name, now in stamps_of(document, sources, killers).items():
-        if isinstance(now, Unjudged):
-            problems.append(Problem(file, name, now.message))
-        elif known_stamps.get(name) != now:
-            what = "was judged on another text" if name in known_stamps else "has not been judged"
-            problems.append(Problem(file, name, stale(what, document.name)))
-    for name in known_stamps.keys() - killers.edits.keys():
-        what = stale("no edit of this name is left", document.name)
-        problems.append(Problem(document.source("pins"), f"killers.{name}", what))
-    return problems
+    stamps = stamps_of(document, sources, killers)
+    return [*problems, *check_stamps(document, "killers", file, stamps)]
 
 
 def edited(document: Document, sources: Sources, killers: Killers, killer: Killer) -> str:
@@ -182,12 +171,7 @@ def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer
         raise Unjudged(f"edits {killer.module}, which is no device's; {suggestion(killer.module, own)}")
     module = own[killer.module]
     text = read_text(document.root, document.root / module.file)
-    if text.count(killer.old) != 1:
-        raise Unjudged(f"{killer.old!r} is in {module.file} {text.count(killer.old)} times, not once")
-    if killer.old == killer.new:
-        raise Unjudged("edits nothing")
-    at = text.index(killer.old) + len(killer.old) - len(killer.old.lstrip())
-    first, last = (text.count("\n", 0, end) + 1 for end in (at, at + len(killer.old.strip())))
+    changed, first, last = applied(text, module.file, killer.old, killer.new)
     before = [definition for definition in module.definitions if definition.line <= first]
     if not before:
         raise Unjudged(f"edits {module.file} outside its definitions")
@@ -195,7 +179,7 @@ def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer
     properties = {prop.tla for prop in document.properties}
     if asked := next((definition.name for definition in touched if definition.name in properties), ""):
         raise Unjudged(f"edits the property {asked} and not the device")
-    return text.replace(killer.old, killer.new), "\n".join(definition.body for definition in touched)
+    return changed, "\n".join(definition.body for definition in touched)
 
 
 def run_of(document: Document, killers: Killers, killer: Killer) -> Run:
@@ -251,12 +235,3 @@ def stamps_of(document: Document, sources: Sources, killers: Killers) -> dict[st
         except Unjudged as error:
             found[name] = error
     return found
-
-
-def write_stamps(document: Document, stamps: Mapping[str, str]) -> None:
-    """Write these stamps, and take away all others. Raises Unjudged when the file cannot be written."""
-    path = document.root / document.source("pins")
-    rows = tomlkit.parse(read_text(document.root, path) if path.is_file() else HEADER)
-    rows.setdefault("document", document.name)
-    rows["killers"] = dict(stamps)
-    write_whole(path, tomlkit.dumps(rows).encode("utf-8"))

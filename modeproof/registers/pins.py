@@ -91,7 +91,7 @@ def load_pins(document: Document) -> Pins:
 
 def texts_of(document: Document, sources: Sources) -> dict[str, Texts]:
     """Both tables: what is checked, and what is proved."""
-    return {"checked": checked_texts(document, sources), "theorems": _proved(document, sources)}
+    return {"checked": checked_texts(document, sources), "theorems": proved_texts(document, sources)}
 
 
 def digest(text: str) -> str:
@@ -222,7 +222,7 @@ def _saying_nothing(document: Document, sources: Sources) -> Iterator[Problem]:
 # ---------------------------------------------------------------------------------------------- theorems
 
 
-def _proved(document: Document, sources: Sources) -> Texts:
+def proved_texts(document: Document, sources: Sources) -> Texts:
     """For each theorem: its text, and that of everything in the room of the document that it refers to."""
     room = ".".join(("proofs", document.name))
     scopes = {module.name: _scope(module, room) for module in sources.proofs}

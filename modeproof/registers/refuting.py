@@ -8,21 +8,19 @@ to pins.toml: a hash of the edit, the definitions that it edits, and the texts o
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
-import tomlkit
 
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.meaning import said_by
 from modeproof.registers.citations import Sources
+from modeproof.registers.edits import applied, check_stamps
 from modeproof.registers.files import read_text, read_toml
-from modeproof.registers.pins import HEADER, digest, load_pins, texts_of
+from modeproof.registers.pins import digest, proved_texts
 from modeproof.registers.rows import Document, Problem
-from modeproof.registers.stale import stale
 from modeproof.registers.typed import Entry, SomeNames, Text, typed
 
 
@@ -69,24 +67,19 @@ def check_refuting(document: Document, sources: Sources) -> list[Problem]:
             problems.append(Problem(place, name, text))
     for name in (refuted | refuting.by_construction.keys()) - there.keys():
         problems.append(Problem(file, name, f"unknown theorem; {suggestion(name, there)}"))
-    known = load_pins(document).refuted
-    for name, now in stamps_of(document, sources, refuting).items():
-        if isinstance(now, Unjudged):
-            problems.append(Problem(file, f"refuted.{name}", now.message))
-        elif known.get(name) != now:
-            what = "was judged on another text" if name in known else "has not been judged"
-            problems.append(Problem(file, f"refuted.{name}", stale(what, document.name)))
-    for name in known.keys() - refuting.edits.keys():
-        what = stale("no edit of this name is left", document.name)
-        problems.append(Problem(document.source("pins"), f"refuted.{name}", what))
-    return problems
+    stamps = stamps_of(document, sources, refuting)
+    return [*problems, *check_stamps(document, "refuted", file, stamps, "refuted.")]
 
 
 def edited(root: Path, document: str, edit: Edit) -> str:
-    """The whole text of the file with the edit.
+    """The whole text of the file with the edit. Raises Unjudged as `_edit`."""
+    return _edit(root, document, edit)[0]
 
-    Raises Unjudged: a file that is no code of the document; a text that is not there once; an edit that is
-    none.
+
+def _edit(root: Path, document: str, edit: Edit) -> tuple[str, list[ast.stmt]]:
+    """The text with the edit, and the statements of the module that it changes.
+
+    Raises Unjudged: a file that is no code of the document; what `applied` refuses.
     """
     room = edit.file.rpartition("/")[0]
     if room not in (f"refimpl/{document}", f"proofs/{document}", "refimpl") or not edit.file.endswith(".py"):
@@ -94,20 +87,9 @@ def edited(root: Path, document: str, edit: Edit) -> str:
             f"edits {edit.file}, which is no module of refimpl/{document}, refimpl or proofs/{document}"
         )
     text = read_text(root, root / edit.file)
-    if text.count(edit.old) != 1:
-        raise Unjudged(f"{edit.old!r} is in {edit.file} {text.count(edit.old)} times, not once")
-    if edit.old == edit.new:
-        raise Unjudged("edits nothing")
-    return text.replace(edit.old, edit.new)
-
-
-def _touched(text: str, edit: Edit) -> Iterator[ast.stmt]:
-    """The statements of the module that the edit changes."""
-    at = text.index(edit.old) + len(edit.old) - len(edit.old.lstrip())
-    first, last = (text.count("\n", 0, end) + 1 for end in (at, at + len(edit.old.strip())))
-    for node in ast.parse(text).body:
-        if node.lineno <= last and (node.end_lineno or node.lineno) >= first:
-            yield node
+    changed, first, last = applied(text, edit.file, edit.old, edit.new)
+    nodes = ast.parse(text).body
+    return changed, [one for one in nodes if one.lineno <= last and (one.end_lineno or one.lineno) >= first]
 
 
 def stamps_of(document: Document, sources: Sources, refuting: Refuting) -> dict[str, str | Unjudged]:
@@ -115,13 +97,11 @@ def stamps_of(document: Document, sources: Sources, refuting: Refuting) -> dict[
 
     Another change of the code does not move it: the tests judge some edits again, and `--complete` all.
     """
-    said = texts_of(document, sources)["theorems"]
+    said = proved_texts(document, sources)
     found: dict[str, str | Unjudged] = {}
     for name, edit in refuting.edits.items():
         try:
-            edited(document.root, document.name, edit)
-            text = read_text(document.root, document.root / edit.file)
-            touched = list(_touched(text, edit))
+            touched = _edit(document.root, document.name, edit)[1]
             theorems = {one.name for one in touched if isinstance(one, ast.FunctionDef)} & {*edit.theorems}
             if theorems:
                 raise Unjudged(f"edits the theorem {min(theorems)} and not the code")
@@ -130,12 +110,3 @@ def stamps_of(document: Document, sources: Sources, refuting: Refuting) -> dict[
         except Unjudged as error:
             found[name] = error
     return found
-
-
-def write_stamps(document: Document, stamps: Mapping[str, str]) -> None:
-    """Write these stamps, and take away all others. Raises Unjudged when the file cannot be written."""
-    path = document.root / document.source("pins")
-    rows = tomlkit.parse(read_text(document.root, path) if path.is_file() else HEADER)
-    rows.setdefault("document", document.name)
-    rows["refuted"] = dict(stamps)
-    write_whole(path, tomlkit.dumps(rows).encode("utf-8"))

@@ -7,15 +7,15 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.processes import cores, in_forks
 from modeproof.kit.by_name import module_named
 from modeproof.registers.citations import read_sources
+from modeproof.registers.edits import write_stamps
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import load_pins
-from modeproof.registers.refuting import edited, load_refuting, stamps_of, write_stamps
+from modeproof.registers.refuting import Edit, edited, load_refuting, stamps_of
 
 LIMIT_S = 900.0
 """Wall-clock time for one edit; what takes longer is not judged."""
@@ -45,18 +45,18 @@ def _answers(asked: _Asked) -> Mapping[str, str]:
 
 
 def refutations(
-    place: Path, document: str, names: Mapping[str, Any], say: Callable[[str], None]
+    place: Path, document: str, edits: Mapping[str, Edit], say: Callable[[str], None]
 ) -> dict[str, Mapping[str, str]]:
-    """For each edit what its theorems say of the edited code. `names`: rows by name, as they are loaded.
+    """For each edit, by its name, what its theorems say of the edited code.
 
     Raises Unjudged: a row that cannot be used, an edit that takes too long.
     """
     asked = [
         _Asked(place, document, edit.file, edited(place, document, edit), edit.theorems)
-        for edit in names.values()
+        for edit in edits.values()
     ]
     found: dict[str, Mapping[str, str]] = {}
-    keys = [*names]
+    keys = [*edits]
     for outcome in in_forks(_answers, asked, cores(), LIMIT_S):
         if outcome is None:
             continue
@@ -92,5 +92,5 @@ def judge_refuting(place: Path, name: str, everything: bool, say: Callable[[str]
             good[edit] = str(stamps[edit])
         lost += wrong
     if good != known:
-        write_stamps(document, {edit: good[edit] for edit in stamps if edit in good})
+        write_stamps(document, "refuted", {edit: good[edit] for edit in stamps if edit in good})
     return sorted(lost)

@@ -12,7 +12,8 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.citations import Sources, read_sources
-from modeproof.registers.killers import Killer, edited, load_killers, run_of, stamps_of, write_stamps
+from modeproof.registers.edits import write_stamps
+from modeproof.registers.killers import Killer, edited, load_killers, run_of, stamps_of
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, root_module
 from modeproof.registers.pins import load_pins
@@ -100,7 +101,7 @@ def judge_killers(
         kept = {edit: stamp for edit, stamp in old.items() if edit in killers.edits and edit not in lost}
         stamps = {edit: stamp for edit in killers.edits if (stamp := (kept | new).get(edit))}
         if stamps != old:
-            write_stamps(document, stamps)
+            write_stamps(document, "killers", stamps)
     say(f"{name}: {len(killers.edits)} edits, {judged} judged now, {len(lost)} break nothing")
     if unjudged:
         raise Unjudged(f"spec/{name}/killers.toml: not judged: {', '.join(unjudged)}")

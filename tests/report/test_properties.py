@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from modeproof.registers.citations import read_sources
-from modeproof.registers.killers import load_killers, stamps_of, write_stamps
+from modeproof.registers.edits import write_stamps
+from modeproof.registers.killers import load_killers, stamps_of
 from modeproof.registers.load import load_document
 from modeproof.report.build import make
 from modeproof.report.parts.properties import part
@@ -151,7 +152,7 @@ def test_an_edit_says_where_it_was_not_judged(root: Path) -> None:
     assert "? not judged on this text" in make(root).html
     document = load_document(root, "box")
     stamps = stamps_of(document, read_sources(document), load_killers(root, "box"))
-    write_stamps(document, {name: str(stamp) for name, stamp in stamps.items()})
+    write_stamps(document, "killers", {name: str(stamp) for name, stamp in stamps.items()})
     assert part(gather(root)).troubles == ()
     assert (
         "one edit: <code>Ready(i) == i.door \\/ ~Needed</code> becomes <code>Ready(i) == TRUE</code> in Box"

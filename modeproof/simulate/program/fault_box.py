@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from browser import document
+from modeproof.simulate.program.view import line
 
 NOTHING = "No fault is in."
 
@@ -22,19 +22,10 @@ def draw_fault(root: Any, faults: list[dict[str, Any]], active: str) -> None:
     else:
         pressed.parentElement.insertBefore(frame, pressed.nextElementSibling)
     for fault in [fault for fault in faults if fault["id"] == active]:
-        _line(about, "In: ", f"{fault['title']}. {fault['model']}")
-        _line(about, "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
+        line(about, "p", "In: ", f"{fault['title']}. {fault['model']}")
+        line(about, "p", "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
         for fall in fault["falls"]:
-            _line(about, f"{fall['property']} fails: ", fall["needs"])
-        _line(about, "Not detected: ", fault["not_detected"])
+            line(about, "p", f"{fall['property']} fails: ", fall["needs"])
+        line(about, "p", "Not detected: ", fault["not_detected"])
     if not active:
-        _line(about, "", NOTHING)
-
-
-def _line(about: Any, head: str, text: str) -> None:
-    line = document.createElement("p")
-    strong = document.createElement("b")
-    strong.text = head
-    line.appendChild(strong)
-    line.appendChild(document.createTextNode(text))
-    about.appendChild(line)
+        line(about, "p", "", NOTHING)

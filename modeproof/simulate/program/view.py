@@ -83,13 +83,13 @@ class View:
             return False
         for head, said in ((of["head"], of["say"]), ("What to do", of["way"])):
             if said:
-                _line(node, "p", f"{head}: ", said[0])
+                line(node, "p", f"{head}: ", said[0])
                 listed = document.createElement("ul")
                 for id in said[1]:
-                    _line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
+                    line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
                 node.appendChild(listed)
         if of["waits"]:
-            _line(node, "p", "", of["waits"])
+            line(node, "p", "", of["waits"])
         return bool(before.get("say") != of["say"] or before.get("kind") != of["kind"])
 
     def _put(self, kind: str, node: Any, value: Any) -> None:
@@ -124,17 +124,18 @@ class View:
         listed = node.select_one('[data-part-of="clauses"]')
         listed.innerHTML = ""
         for id in self.facts["devices"][name]["steps"].get(of["step"], []):
-            _line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
+            line(listed, "li", f"{id} ", self.facts["texts"].get(id, ""))
 
 
-def _line(parent: Any, kind: str, head: str, text: str) -> None:
-    line = document.createElement(kind)
+def line(parent: Any, kind: str, head: str, text: str) -> None:
+    """Add an element with a bold head, if there is one, and a text."""
+    made = document.createElement(kind)
     if head:
         strong = document.createElement("b")
         strong.text = head
-        line.appendChild(strong)
-    line.appendChild(document.createTextNode(text))
-    parent.appendChild(line)
+        made.appendChild(strong)
+    made.appendChild(document.createTextNode(text))
+    parent.appendChild(made)
 
 
 def _by(root: Any, attribute: str) -> dict[str, list[Any]]:
